@@ -1,0 +1,1 @@
+// Stands in until a part has files.
