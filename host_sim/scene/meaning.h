@@ -1,0 +1,63 @@
+#pragma once
+// What a node means to Rainglass: extras.rainglass, as models/README.md has it. Angles are in radians here.
+
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace host {
+
+enum class GlassSurface { Uncoated, Dirty, Coated, NewCoating };
+enum class LightRole { Head, Tail, Brake, Indicator, Street, Interior };
+
+struct PaneMeaning {
+  std::string name;
+  GlassSurface glass = GlassSurface::Uncoated;
+};
+
+struct ShelterMeaning {
+  std::string name;
+};
+
+struct WiperMeaning {
+  std::string name;
+  std::string pane;
+  float arm_m = 0.0F;            ///< pivot to the blade's middle
+  float blade_m = 0.0F;          ///< blade's length
+  float blade_angle_rad = 0.0F;  ///< from the arm's direction to the blade's
+  float sweep_rad = 0.0F;        ///< signed, about the node's +Y, rest to far reversal
+};
+
+struct EyeMeaning {
+  float pitch_rad = 0.0F;      ///< up positive
+  float fov_rad = 1.0471976F;  ///< horizontal
+};
+
+struct RouteMeaning {
+  std::vector<glm::vec3> points_m;  ///< in the node's own axes
+  bool closed = false;
+};
+
+struct LightMeaning {
+  LightRole role = LightRole::Head;
+};
+
+struct WheelMeaning {
+  float radius_m = 0.3F;
+  bool steers = false;
+};
+
+struct SteeringWheelMeaning {
+  float ratio = 15.0F;  ///< steering wheel angle / road wheel angle
+};
+
+struct MirrorMeaning {
+  std::string name;
+};
+
+/// monostate: an ordinary node.
+using Meaning = std::variant<std::monostate, PaneMeaning, ShelterMeaning, WiperMeaning, EyeMeaning,
+                             RouteMeaning, LightMeaning, WheelMeaning, SteeringWheelMeaning, MirrorMeaning>;
+
+}  // namespace host
