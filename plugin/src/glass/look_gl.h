@@ -1,0 +1,100 @@
+// What a driver sees of a pane: the world refracted by its film, blurred by unresolved droplets, and each drop traced as the lens it is.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+
+struct GladGLContext;
+
+namespace rg::glass {
+
+// Whose picture it is. Matrices are named destinationFromSource; world coordinates may be large, so they stay double up to here.
+struct LookView {
+  glm::dmat4 eyeFromWorld{1.0};
+  glm::dmat4 clipFromEye{1.0};
+  glm::ivec4 viewport_px{0};  // x, y, width, height in the target
+  bool clip_zero_to_one = false;
+  bool reversed_depth = false;
+};
+
+// Where it is drawn. `color_texture` is what the framebuffer's colour 0 shows, or 0: then the picture is fetched from the framebuffer.
+struct LookTarget {
+  uint32_t framebuffer = 0;
+  uint32_t color_texture = 0;
+  int32_t width_px = 0;
+  int32_t height_px = 0;
+  bool srgb = false;      // what is in the target is encoded in sRGB; else linear radiance
+  float exposure = 1.0f;  // what radiance was multiplied with before it was written
+};
+
+// Light that water and glass show besides the visible picture. Radiance in the host's unit.
+struct LookLight {
+  uint32_t environment_cube = 0;  // linear radiance with mips, world axes (+Z face up), or 0; used where no capture was made
+  glm::vec3 sky_radiance{0.0f};
+  glm::vec3 ground_radiance{0.0f};
+  float cabin_share = 1.0f;  // how much of the environment's light comes from the side of the glass the cabin is on: 1 = no cabin there
+};
+
+// A pane as it is to be seen. GL names are borrowed for the call.
+struct LookPane {
+  glm::dmat4 worldFromVehicle{1.0};
+  // Mesh: floats {x, y, z, nx, ny, nz, u, v} in the vehicle's frame, normals outward (the wet side), uv those of `film`.
+  uint32_t vertex_buffer = 0;
+  uint32_t index_buffer = 0;  // uint32_t triangles
+  int32_t index_count = 0;
+  glm::vec3 centre_m{0.0f};  // of the pane's bounding sphere, vehicle frame: panes are drawn from far to near
+  float radius_m = 0.0f;
+  // Film: R32I/R32UI volume in each texel; `film_unit_m3` is the volume of one count. Cells are `cell_m` wide on the glass.
+  uint32_t film = 0;  // 0: no film
+  glm::ivec2 film_size{0};
+  float film_unit_m3 = 0.0f;
+  uint32_t metric = 0;  // RGBA32F beside the film, per texel: metres of glass for one texel along u, along v, cosine between both, area in m^2
+  uint32_t frame = 0;   // RGBA16F array of 2 layers beside it: unit tangents along u and along v in the vehicle's frame
+  uint32_t mist = 0;    // R16F beside it or 0: share of the area under droplets too small to be drawn
+  // Drops: rg::shared::LookDrop records in an SSBO.
+  uint32_t drop_buffer = 0;
+  int32_t drop_count = 0;
+};
+
+struct LookSettings {
+  int internal_reflections = 6;  // of a ray in a drop, 0 .. 6
+  int capture_size_px = 256;     // of one face of the captured cube
+  float brightness = 1.0f;       // of what is seen through water
+  float blur = 1.0f;             // of what is seen through unresolved droplets
+  bool dry_reflection = true;    // dry glass reflects its surroundings when looked at from outside
+};
+
+// Draws scene and sky (no rain, panes, cabin) into `framebuffer`, whole viewport `size_px`, with these matrices.
+using DrawScene = std::function<void(uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld, const glm::dmat4& clipFromEye)>;
+
+class GlassLook {
+ public:
+  explicit GlassLook(const GladGLContext& gl);
+  ~GlassLook();
+  GlassLook(const GlassLook&) = delete;
+  GlassLook& operator=(const GlassLook&) = delete;
+
+  LookSettings settings;
+
+  // Draws panes with their water over the target's picture, far ones first. Needs the world behind them drawn and changes only colour: depth
+  // is tested, not written. Clean glass looked at from inside leaves the picture as it was, to the bit. GL state is not restored here (the
+  // caller's guard does): touches program, vertex array, textures 0..7, buffer binding points, framebuffer, viewport, blend, depth, raster.
+  void drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target, const LookLight& light);
+
+  // Renews the captured surroundings of the eye: at most `max_faces` pictures in this call, the forward one most often.
+  void capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw);
+  // Captured pictures are no longer used (the host stopped giving them, or the eye was put elsewhere).
+  void dropCapture();
+
+  // The context is gone: forget names instead of deleting them.
+  void abandon();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace rg::glass
