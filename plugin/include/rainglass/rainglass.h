@@ -190,7 +190,7 @@ typedef struct rg_sample {
   const rg_weather* weather;     /* null: as in the sample before */
   const rg_vehicle* vehicles;    /* vehicles that are not listed stand still */
   size_t vehicle_stride;
-  const rg_view* views;          /* every channel's view, near part of their frusta is filled with rain */
+  const rg_view* views;          /* every channel's view: the near part of their frusta is filled with rain; null: as in the sample before */
   size_t view_stride;
   uint32_t view_count;
   uint32_t wiper_knot_count;

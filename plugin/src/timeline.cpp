@@ -1,0 +1,206 @@
+#include "timeline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rg {
+namespace {
+
+constexpr double kSecondsPerNs = 1e-9;
+
+template <typename T>
+const T* byId(const std::vector<T>& items, uint32_t id) {
+  const auto found = std::ranges::lower_bound(items, id, {}, &T::id);
+  return found != items.end() && found->id == id ? &*found : nullptr;
+}
+
+WeatherState between(const WeatherState& a, const WeatherState& b, double s) {
+  return {std::lerp(a.rain_mm_h, b.rain_mm_h, s), glm::mix(a.wind_mps, b.wind_mps, s),
+          std::lerp(a.temperature_c, b.temperature_c, s), std::lerp(a.humidity, b.humidity, s)};
+}
+
+Pose between(const Pose& a, const Pose& b, double s) {
+  return {glm::mix(a.position_m, b.position_m, s), glm::slerp(a.orientation, b.orientation, s),
+          glm::mix(a.velocity_mps, b.velocity_mps, s), glm::mix(a.angular_velocity_radps, b.angular_velocity_radps, s)};
+}
+
+// A rigid eye_from_world turned into the eye's place and orientation, so that it can be interpolated.
+glm::dmat4 between(const glm::dmat4& a, const glm::dmat4& b, double s) {
+  const glm::dquat qa = glm::quat_cast(glm::dmat3(a)), qb = glm::quat_cast(glm::dmat3(b));
+  const glm::dvec3 pa = -(glm::transpose(glm::dmat3(a)) * glm::dvec3(a[3]));
+  const glm::dvec3 pb = -(glm::transpose(glm::dmat3(b)) * glm::dvec3(b[3]));
+  const glm::dmat3 rotation = glm::mat3_cast(glm::slerp(qa, qb, s));
+  glm::dmat4 result(rotation);
+  result[3] = glm::dvec4(-(rotation * glm::mix(pa, pb, s)), 1.0);
+  return result;
+}
+
+glm::dvec3 accelerationBetween(const VehicleState& a, const VehicleState& b, int64_t span_ns) {
+  if (b.discontinuity || span_ns <= 0) return glm::dvec3(0.0);
+  return (b.pose.velocity_mps - a.pose.velocity_mps) / (static_cast<double>(span_ns) * kSecondsPerNs);
+}
+
+// A vehicle at the moment that lies the share s of the way from sample a to sample b; a may equal b.
+VehicleState vehicleBetween(const Sample& a, const Sample& b, const VehicleState& in_b, double s) {
+  const VehicleState* in_a = byId(a.vehicles, in_b.id);
+  VehicleState result = in_b;
+  if (in_a == nullptr || &a == &b) return result;
+  result.acceleration_mps2 = accelerationBetween(*in_a, in_b, b.time_ns - a.time_ns);
+  if (s >= 1.0) return result;
+  result.discontinuity = false;
+  const double since_a_s = s * static_cast<double>(b.time_ns - a.time_ns) * kSecondsPerNs;
+  result.pose = in_b.discontinuity ? extrapolated(in_a->pose, since_a_s) : between(in_a->pose, in_b.pose, s);
+  return result;
+}
+
+ViewState viewBetween(const Sample& a, const ViewState& in_b, double s) {
+  ViewState result = in_b;
+  const ViewState* in_a = byId(a.views, in_b.id);
+  if (in_a == nullptr || s >= 1.0) return result;
+  result.discontinuity = false;
+  result.eyeFromWorld = in_b.discontinuity ? in_a->eyeFromWorld : between(in_a->eyeFromWorld, in_b.eyeFromWorld, s);
+  return result;
+}
+
+double shareBetween(const Sample& a, const Sample& b, int64_t time_ns) {
+  if (b.time_ns <= a.time_ns) return 1.0;
+  return static_cast<double>(time_ns - a.time_ns) / static_cast<double>(b.time_ns - a.time_ns);
+}
+
+double angleAt(const std::vector<WiperKnot>& knots, int64_t time_ns) {
+  const auto after = std::ranges::lower_bound(knots, time_ns, {}, &WiperKnot::time_ns);
+  if (after == knots.begin()) return after->angle_rad;
+  const WiperKnot& before = *std::prev(after);
+  if (after == knots.end()) return before.angle_rad;
+  const double s = static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after->time_ns - before.time_ns);
+  return std::lerp(before.angle_rad, after->angle_rad, s);
+}
+
+// The angle farthest outside of [from, to] that a knot inside the tick reaches: where the blade turned round.
+double extremeBetween(const std::vector<WiperKnot>& knots, int64_t begin_ns, int64_t end_ns, double from, double to) {
+  double extreme = to, reach = 0.0;
+  for (auto k = std::ranges::upper_bound(knots, begin_ns, {}, &WiperKnot::time_ns); k != knots.end() && k->time_ns < end_ns; ++k) {
+    const double outside = std::max(k->angle_rad - std::max(from, to), std::min(from, to) - k->angle_rad);
+    if (outside > reach) {
+      reach = outside;
+      extreme = k->angle_rad;
+    }
+  }
+  return extreme;
+}
+
+template <typename T>
+void carryOver(const std::vector<T>& before, std::vector<T>& now, void (*atRest)(T&)) {
+  for (const T& item : before) {
+    if (byId(now, item.id) != nullptr) continue;
+    const auto place = std::ranges::lower_bound(now, item.id, {}, &T::id);
+    atRest(*now.insert(place, item));
+  }
+}
+
+}  // namespace
+
+Pose extrapolated(const Pose& pose, double seconds) {
+  Pose result = pose;
+  result.position_m += pose.velocity_mps * seconds;
+  const double angle_rad = glm::length(pose.angular_velocity_radps) * seconds;
+  if (angle_rad != 0.0) {
+    const glm::dquat turn = glm::angleAxis(angle_rad, glm::normalize(pose.angular_velocity_radps));
+    result.orientation = glm::normalize(turn * pose.orientation);
+  }
+  return result;
+}
+
+void Timeline::add(const Sample& sample) {
+  Sample added = sample;
+  std::ranges::sort(added.vehicles, {}, &VehicleState::id);
+  std::ranges::sort(added.views, {}, &ViewState::id);
+  if (!samples_.empty()) {
+    carryOver<VehicleState>(samples_.back().vehicles, added.vehicles, [](VehicleState& v) {
+      v.pose.velocity_mps = v.pose.angular_velocity_radps = glm::dvec3(0.0);
+      v.discontinuity = false;
+    });
+  }
+  for (const auto& [wiper, knot] : added.wiper_knots) {
+    std::vector<WiperKnot>& knots = knots_[wiper];
+    if (!knots.empty() && knots.back().time_ns >= knot.time_ns) {
+      if (knots.back().time_ns == knot.time_ns) knots.back() = knot;
+      continue;
+    }
+    knots.push_back(knot);
+  }
+  samples_.push_back(std::move(added));
+}
+
+std::pair<const Sample*, const Sample*> Timeline::around(int64_t time_ns) const {
+  const auto at = std::ranges::lower_bound(samples_, time_ns, {}, &Sample::time_ns);
+  if (at == samples_.begin()) return {&*at, &*at};
+  if (at == samples_.end()) return {&samples_.back(), &samples_.back()};
+  return {&*std::prev(at), &*at};
+}
+
+std::optional<VehicleState> Timeline::vehicleAt(uint32_t id, int64_t time_ns) const {
+  if (samples_.empty()) return std::nullopt;
+  const auto [a, b] = around(time_ns);
+  const VehicleState* in_b = byId(b->vehicles, id);
+  if (in_b == nullptr) return std::nullopt;
+  VehicleState state = vehicleBetween(*a, *b, *in_b, shareBetween(*a, *b, time_ns));
+  if (time_ns > b->time_ns) {
+    state.pose = extrapolated(state.pose, static_cast<double>(time_ns - b->time_ns) * kSecondsPerNs);
+    state.discontinuity = false;
+  }
+  return state;
+}
+
+std::optional<double> Timeline::wiperAngleAt(uint32_t wiper, int64_t time_ns) const {
+  const auto found = knots_.find(wiper);
+  if (found == knots_.end() || found->second.empty()) return std::nullopt;
+  return angleAt(found->second, time_ns);
+}
+
+const Tick& Timeline::tick(int64_t index) {
+  const int64_t begin_ns = tickTimeNs(index - 1), end_ns = tickTimeNs(index);
+  const auto [a, b] = around(end_ns);
+  const double s = shareBetween(*a, *b, end_ns);
+  vehicles_.clear();
+  for (const VehicleState& v : b->vehicles) vehicles_.push_back(*vehicleAt(v.id, end_ns));
+  views_.clear();
+  for (const ViewState& v : b->views) views_.push_back(viewBetween(*a, v, s));
+  wipers_.clear();
+  for (const auto& [wiper, knots] : knots_) {
+    const double from = angleAt(knots, begin_ns), to = angleAt(knots, end_ns);
+    wipers_.push_back({wiper, from, extremeBetween(knots, begin_ns, end_ns, from, to), to});
+  }
+  tick_ = {index, end_ns, between(a->weather, b->weather, s), vehicles_, views_, wipers_};
+  return tick_;
+}
+
+void Timeline::prune(int64_t index) {
+  const int64_t oldest_ns = tickTimeNs(index) - 1'000'000'000;
+  const auto keep = std::ranges::upper_bound(samples_, oldest_ns, {}, &Sample::time_ns);
+  if (keep - samples_.begin() > 1) samples_.erase(samples_.begin(), std::prev(keep));
+  for (auto& [wiper, knots] : knots_) {
+    const auto kept = std::ranges::upper_bound(knots, oldest_ns, {}, &WiperKnot::time_ns);
+    if (kept - knots.begin() > 1) knots.erase(knots.begin(), std::prev(kept));
+  }
+}
+
+void Timeline::removeVehicle(uint32_t id) {
+  for (Sample& s : samples_) std::erase_if(s.vehicles, [id](const VehicleState& v) { return v.id == id; });
+}
+
+void Timeline::removeWiper(uint32_t id) { knots_.erase(id); }
+
+void Timeline::clear() {
+  samples_.clear();
+  knots_.clear();
+}
+
+void Timeline::rebase(const glm::dvec3& shift_m) {
+  for (Sample& s : samples_) {
+    for (VehicleState& v : s.vehicles) v.pose.position_m -= shift_m;
+    for (ViewState& v : s.views) v.eyeFromWorld[3] += glm::dvec4(glm::dmat3(v.eyeFromWorld) * shift_m, 0.0);
+  }
+}
+
+}  // namespace rg

@@ -1,0 +1,68 @@
+// The host's samples, and what lies between them: at which moments ticks fall, and the inputs of each.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tick.h"
+
+namespace rg {
+
+struct WiperKnot {
+  int64_t time_ns = 0;
+  double angle_rad = 0.0;
+};
+
+// A sample as the plugin keeps it. Vehicles and views are in the order of their ids.
+struct Sample {
+  int64_t time_ns = 0;
+  WeatherState weather;
+  std::vector<VehicleState> vehicles;
+  std::vector<ViewState> views;
+  std::vector<std::pair<uint32_t, WiperKnot>> wiper_knots;
+};
+
+// Inputs between samples are linear (poses: position linear, orientation slerp); beyond the last one bodies go on with their velocities.
+// A tick's inputs depend on the samples around it alone, so they do not depend on how time is cut into updates, as long as
+// the sample at or after a tick is there when the tick runs.
+class Timeline {
+ public:
+  // Takes a sample later than all before. Vehicles and views it does not list stay as they were (a moving vehicle comes to rest).
+  void add(const Sample& sample);
+  bool empty() const { return samples_.empty(); }
+  int64_t lastTimeNs() const { return samples_.back().time_ns; }
+
+  // Inputs of the tick with this index; spans stay valid until the next call. Needs a sample.
+  const Tick& tick(int64_t index);
+
+  // A vehicle at any moment from shortly before the last tick on, for drawing between ticks.
+  std::optional<VehicleState> vehicleAt(uint32_t id, int64_t time_ns) const;
+  // A wiper's angle, held before the first knot and after the last; none when it never had a knot.
+  std::optional<double> wiperAngleAt(uint32_t wiper, int64_t time_ns) const;
+
+  // Forgets what no tick from `index` on and no picture less than a second old can ask for.
+  void prune(int64_t index);
+  void removeVehicle(uint32_t id);
+  void removeWiper(uint32_t id);
+  void clear();
+  // All positions become p - shift.
+  void rebase(const glm::dvec3& shift_m);
+
+ private:
+  std::pair<const Sample*, const Sample*> around(int64_t time_ns) const;
+
+  std::vector<Sample> samples_;  // ascending
+  std::map<uint32_t, std::vector<WiperKnot>> knots_;
+  Tick tick_;
+  std::vector<VehicleState> vehicles_;
+  std::vector<ViewState> views_;
+  std::vector<WiperMotion> wipers_;
+};
+
+// A body's pose `seconds` later, at constant linear and angular velocity.
+Pose extrapolated(const Pose& pose, double seconds);
+
+}  // namespace rg
