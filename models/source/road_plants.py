@@ -1,0 +1,246 @@
+"""Trees, bushes, hedges and grass: few meshes, many places; forest edges as upright pictures further off."""
+import numpy as np
+
+import road_route as route
+import road_terrain as terrain
+from road_foliage import leaf_uv
+from road_mesh import Chunks, Mesh, place
+from road_village import PLOTS
+
+
+def _card(mesh, centre, right, up, tile, middle, lift=0.25):
+    """A leaf card; its normals point out of the crown's middle, so that the crown is lit as one round body."""
+    centre, right, up = (np.asarray(v, float) for v in (centre, right, up))
+    corners = np.array([centre - right - up, centre + right - up, centre + right + up, centre - right + up])
+    normals = corners - middle
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    normals[:, 2] += lift
+    mesh.quad(corners, "leaves", leaf_uv(tile), normals / np.linalg.norm(normals, axis=1, keepdims=True))
+
+
+def _basis(out, rng, wild):
+    """Right and up of a card that looks roughly outwards."""
+    n = out / (np.linalg.norm(out) + 1e-9) + rng.normal(0, wild, 3)
+    n /= np.linalg.norm(n)
+    right = np.cross(rng.normal(0, 1, 3), n)
+    right /= np.linalg.norm(right)
+    return right, np.cross(n, right)
+
+
+def _crown(mesh, rng, middle, radii, cards, size, tile, dark):
+    """Leaf cards over an ellipsoid, dark ones inside."""
+    middle, radii = np.asarray(middle, float), np.asarray(radii, float)
+    for k in range(cards):
+        z = 1 - 2 * (k + 0.5) / cards
+        a = k * 2.39996 + rng.normal(0, 0.2)
+        out = np.array([np.sqrt(1 - z * z) * np.cos(a), np.sqrt(1 - z * z) * np.sin(a), z])
+        depth = rng.uniform(0.35, 0.6) if k % 4 == 0 else rng.uniform(0.72, 1.0)
+        right, up = _basis(out, rng, 0.35)
+        half = size * rng.uniform(0.8, 1.2)
+        _card(mesh, middle + out * radii * depth, right * half, up * half, dark if k % 4 == 0 or z < -0.55 else tile, middle)
+
+
+def _trunk(mesh, rng, height, radius, material, branches, reach):
+    sway = np.cumsum(rng.normal(0, 0.12, (5, 2)), axis=0)
+    z = np.linspace(0, height, 5)
+    line = np.column_stack([sway * (z / height)[:, None], z])
+    line[0, 2] = -0.4
+    mesh.tube(line, radius * np.array([1.35, 1.0, 0.8, 0.6, 0.35]), 6, material, 1.5)
+    for k in range(branches):
+        a, start = k * 2.4 + rng.normal(0, 0.3), line[2 + k % 2]
+        tip = start + np.array([np.cos(a) * reach, np.sin(a) * reach, reach * 1.1])
+        mesh.tube([start, 0.5 * (start + tip) + [0, 0, 0.2], tip], radius * np.array([0.5, 0.35, 0.15]), 4, material, 1.5)
+
+
+def _broadleaf(seed, height, wide, cards, tile="broad", dark="broad_dark"):
+    mesh, rng = Mesh(), np.random.default_rng(seed)
+    _trunk(mesh, rng, height * 0.72, height * 0.026, "bark", 5, wide * 0.5)
+    parts = 4
+    for k in range(parts):
+        a = k * 2 * np.pi / (parts - 1) + rng.normal(0, 0.3)
+        off = np.array([np.cos(a), np.sin(a), 0]) * wide * (0.42 if k < parts - 1 else 0.0)
+        level = height * (0.55 + 0.06 * rng.normal()) if k < parts - 1 else height * 0.76
+        _crown(mesh, rng, off + [0, 0, level], (wide * 0.62, wide * 0.62, height * 0.23), cards // parts, wide * 0.30, tile, dark)
+    return mesh.data(f"tree_{seed}")
+
+
+def _birch(seed):
+    mesh, rng = Mesh(), np.random.default_rng(seed)
+    _trunk(mesh, rng, 10.5, 0.13, "bark_birch", 4, 1.0)
+    for level, wide in ((4.6, 1.5), (6.6, 1.9), (8.6, 1.6), (10.4, 1.0)):
+        _crown(mesh, rng, (rng.normal(0, 0.2), rng.normal(0, 0.2), level), (wide, wide, 1.5), 17, 0.85, "birch", "broad")
+    return mesh.data(f"birch_{seed}")
+
+
+def _spruce(seed, height):
+    mesh, rng = Mesh(), np.random.default_rng(seed)
+    mesh.tube([(0, 0, -0.4), (0, 0, height * 0.5), (0, 0, height)], [0.2, 0.13, 0.03], 5, "bark", 1.5)
+    tiers = 11
+    for tier in range(tiers):
+        t = tier / (tiers - 1)
+        reach, level = (0.23 * (1 - t) + 0.035) * height, height * (0.10 + 0.84 * t)
+        for k in range(8 if t < 0.6 else 6):
+            a = k * 2 * np.pi / (8 if t < 0.6 else 6) + tier * 0.7 + rng.normal(0, 0.15)
+            out, across = np.array([np.cos(a), np.sin(a), 0]), np.array([-np.sin(a), np.cos(a), 0])
+            along = (out * 0.95 + [0, 0, -0.32 + 0.35 * t]) * reach / 2 * rng.uniform(0.9, 1.12)
+            side = (across * (0.75 if k % 2 else -0.75) + np.array([0, 0, 0.62])) * reach * 0.34
+            _card(mesh, np.array([0, 0, level]) + along, along, side, "spruce_dark" if (k + tier) % 3 == 0 else "spruce",
+                  np.array([0, 0, level - 0.35 * height * (1 - t) - 0.4]))
+    top = height * 0.95
+    for a in (0.3, 1.9):
+        _card(mesh, (0, 0, top), (0.5 * np.cos(a), 0.5 * np.sin(a), 0.0), (0, 0, 0.9), "spruce", np.array([0, 0, top - 2]))
+    return mesh.data(f"spruce_{seed}")
+
+
+def _bush(seed, wide, tall):
+    mesh, rng = Mesh(), np.random.default_rng(seed)
+    _crown(mesh, rng, (0, 0, tall * 0.42), (wide, wide, tall * 0.5), 26, wide * 0.52, "bush", "broad_dark")
+    return mesh.data(f"bush_{seed}")
+
+
+def _hedge():
+    """4 m of clipped hedge along x."""
+    mesh, rng = Mesh(), np.random.default_rng(77)
+    u0, v0, u1, v1 = leaf_uv("bush", 0.3)
+    for y in (-0.4, 0.4):
+        a, b = (2.0, -2.0) if y > 0 else (-2.0, 2.0)
+        for k in range(2):
+            p, q = a + (b - a) * k / 2, a + (b - a) * (k + 1) / 2
+            mesh.quad([(p, y, -0.3), (q, y, -0.3), (q, y, 1.35), (p, y, 1.35)], "leaves", (u0, v0, u1, v1))
+    mesh.quad([(-2, -0.4, 1.35), (2, -0.4, 1.35), (2, 0.4, 1.35), (-2, 0.4, 1.35)], "leaves", (u0, v0, u1, v1))
+    for k in range(16):
+        spot = np.array([rng.uniform(-2, 2), rng.choice([-0.42, 0.42, 0.0]), 0])
+        spot[2] = 1.35 if spot[1] == 0 else rng.uniform(0.3, 1.2)
+        right, up = _basis(np.array([0, spot[1], 0.5 if spot[1] == 0 else 0.1]), rng, 0.25)
+        _card(mesh, spot, right * 0.45, up * 0.45, "bush", np.array([spot[0], 0, 0.6]))
+    return mesh.data("hedge")
+
+
+# Stretches of planting: first s, last s, side, nearest and furthest d, how many, kinds.
+STANDS = [(-190, 95, 1, 16, 46, 20, "ooqb"), (-190, 95, -1, 10, 44, 24, "oqqbs"), (20, 98, -1, 8.5, 13, 8, "uuq"), (-150, 100, 1, 8.5, 12, 12, "uu"),
+          (110, 325, 1, 27, 55, 17, "oqbu"), (110, 325, -1, 27, 55, 17, "oqbu"), (125, 320, 1, 8.5, 12, 9, "ubu"), (125, 320, -1, 8.5, 12, 9, "uub"),
+          (332, 346, 1, 13, 40, 6, "uoq"), (332, 346, -1, 13, 40, 6, "uqo"), (365, 470, 1, 12, 50, 16, "oqsb"), (365, 470, -1, 11, 50, 18, "osqb"),
+          (366, 540, -1, 8.8, 11, 8, "uu"), (470, 545, 1, 22, 55, 16, "ssoq"), (470, 545, -1, 22, 55, 16, "ssob"),
+          (552, 728, 1, 3, 55, 24, "ssoq"), (552, 728, -1, 3, 55, 24, "ssoq"), (736, 800, 1, 24, 55, 12, "ssq"), (736, 800, -1, 24, 55, 12, "sso"),
+          (790, 960, 1, 12, 45, 22, "osqb"), (790, 975, -1, 12, 48, 24, "sqob"), (800, 960, 1, 8.8, 12, 6, "uu"),
+          (985, 1150, 1, 12, 40, 14, "oqbu"), (1000, 1130, -1, 47, 60, 18, "osqb"), (1150, 1220, -1, 11, 40, 10, "oqb"),
+          (1160, 1400, 1, 12, 50, 16, "oqb"), (1250, 1450, -1, 16, 55, 14, "oqbs"), (1420, 1600, 1, 10, 45, 18, "sosq"),
+          (1480, 1700, -1, 17, 55, 12, "oqb"), (1620, 1950, 1, 10, 55, 24, "ossqb"), (1720, 1950, -1, 16, 55, 18, "ossq")]
+# Rows of trees at even spacing (an avenue): first s, last s, d, spacing, kind.
+ROWS = [(-150, 98, -9.6, 19, "o"), (1210, 1400, 9.8, 18, "q"), (1560, 1740, -9.8, 18, "b")]
+
+
+def _is_free(s, d, wide):
+    """Whether a plant of that radius keeps clear of road, crossing road, houses and forecourt."""
+    over_tunnel = route.TUNNEL_IN + 3 < s < route.TUNNEL_OUT - 3
+    if abs(d) < 7.6 + wide * 0.35 and not over_tunnel:
+        return False
+    if abs(s - route.BRIDGE_S) < 13 + wide and abs(d) < 190:
+        return False
+    if route.FORECOURT_IN - 12 < s < route.FORECOURT_OUT + 12 and -45 < d < 0:
+        return False
+    return all(max(abs(s - hs), abs(d - hd)) > 7.5 + 0.4 * wide for hs, hd, *_ in PLOTS)
+
+
+def _kinds():
+    return {"o": ([_broadleaf(1, 11.5, 4.3, 100), _broadleaf(2, 9.5, 3.9, 88)], 3.5), "q": ([_broadleaf(3, 7.5, 2.8, 72)], 2.5),
+            "b": ([_birch(4), _birch(5)], 2.0), "s": ([_spruce(6, 13.0), _spruce(7, 10.5)], 2.3), "u": ([_bush(8, 1.3, 1.7), _bush(9, 1.8, 2.2)], 1.2)}
+
+
+class _Planter:
+    def __init__(self):
+        self.kinds, self.taken, self.count = _kinds(), [], 0
+
+    def put(self, s, d, kind, rng):
+        data, wide = self.kinds[kind]
+        if not _is_free(s, d, wide):
+            return
+        where = terrain.at(s, d)
+        if any(np.hypot(where[0] - x, where[1] - y) < 0.62 * (wide + w) for x, y, w in self.taken):
+            return
+        self.taken.append((where[0], where[1], wide))
+        axes = route.frame(s, turn=rng.uniform(0, 6.283))[1]
+        place(f"plant_{self.count}", data[rng.integers(len(data))], (where - [0, 0, 0.15], axes), rng.uniform(0.8, 1.25))
+        self.count += 1
+
+
+def _stands(planter):
+    for k, (first, last, side, near, far, count, kinds) in enumerate(STANDS):
+        rng = np.random.default_rng(1000 + k)
+        for _ in range(count):
+            s, d = rng.uniform(first, last), side * (near + (far - near) * rng.random() ** 1.4)
+            planter.put(s, d, kinds[rng.integers(len(kinds))], rng)
+
+
+def _rows(planter):
+    for k, (first, last, d, spacing, kind) in enumerate(ROWS):
+        rng = np.random.default_rng(2000 + k)
+        for s in np.arange(first, last, spacing):
+            planter.put(s + rng.normal(0, 0.6), d + rng.normal(0, 0.3), kind, rng)
+
+
+def _hedges():
+    data = _hedge()
+    for first, last, d in ((128, 180, -7.2), (222, 250, 7.4), (270, 318, -7.2), (992, 1030, -46.5), (1090, 1130, -46.5), (1290, 1420, -7.8)):
+        for s in np.arange(first, last, 3.95):
+            if any(abs(s - hs) < 3.5 and d * hd > 0 and abs(hd) < 30 for hs, hd, *_ in PLOTS):
+                continue
+            place(f"hedge_{s:.0f}_{d:.0f}", data, (terrain.at(s, d), route.frame(s)[1]))
+
+
+def _tufts(chunks):
+    """Taller grass on verge and ditch: pairs of crossing cards, normals up so that they melt into the ground."""
+    rng = np.random.default_rng(55)
+    for s in np.arange(-60, 1800, 1.5):
+        side = rng.choice([-1, 1])
+        d, s = side * (5.3 + 3.6 * rng.random()), s + rng.uniform(-1, 1)
+        wet = route.VILLAGE_IN - 8 < s < route.VILLAGE_OUT + 8 or route.TUNNEL_IN - 6 < s < route.TUNNEL_OUT + 6
+        if wet or abs(s - route.BRIDGE_S) < 12 or (d < 0 and route.FORECOURT_IN - 10 < s < route.FORECOURT_OUT + 10):
+            continue
+        foot, size = terrain.at(s, d), rng.uniform(0.3, 0.6)
+        a = rng.uniform(0, 3.14)
+        for turn in (0.0, 1.57):
+            right = np.array([np.cos(a + turn), np.sin(a + turn), 0]) * size
+            up = np.array([0, 0, size * rng.uniform(0.7, 1.1)])
+            corners = [foot - right - [0, 0, 0.05], foot + right - [0, 0, 0.05], foot + right + up, foot - right + up]
+            tile = leaf_uv("reed" if rng.random() < 0.15 else "grass")
+            chunks.at(s).quad(corners, "leaves", tile, np.tile([0.0, 0.0, 1.0], (4, 1)))
+
+
+def _forest_card(chunks, s0, s1, d0, d1, tall, rng):
+    """An upright picture of a forest's edge between two places beside the road."""
+    a, b = terrain.at(s0, d0), terrain.at(s1, d1)
+    long = np.linalg.norm((b - a)[:2])
+    u0 = rng.random()
+    up = np.array([0, 0, tall])
+    low = np.array([0, 0, 2.0])
+    towards = np.array([0.0, 0.0, 1.0]) * 0.6 + np.append(np.sign(-d0) * route.frame(s0)[1][1][:2], 0.0)
+    chunks.at(min(s0, s1)).quad([a - low, b - low, b + up, a + up], "forest", (u0, 0.0, u0 + long / (4.4 * tall), 0.99), np.tile(towards, (4, 1)))
+
+
+def _forest(chunks):
+    """Woods on both sides beyond the strip: edge, and rows behind and across so that they have depth from every side."""
+    rng = np.random.default_rng(66)
+    woods = [(-190, 60, 1, 75), (-190, -20, -1, 95), (110, 330, 1, 120), (90, 300, -1, 130), (380, 560, 1, 66), (380, 560, -1, 66),
+             (560, 730, 1, 64), (560, 730, -1, 64), (730, 960, 1, 70), (720, 990, -1, 75), (1010, 1140, -1, 66), (1000, 1180, 1, 110),
+             (1230, 1420, -1, 85), (1300, 1480, 1, 140), (1480, 1750, 1, 75), (1560, 1780, -1, 120), (1700, 1950, 1, 66), (1760, 1950, -1, 66)]
+    for first, last, side, near in woods:
+        for row, back in enumerate((0, 22, 50)):
+            s = np.arange(first - 4 * row, last, 34.0)
+            for a, b in zip(s[:-1], s[1:]):
+                d = side * (near + back + rng.uniform(-5, 5, 2))
+                _forest_card(chunks, a, b + 3, d[0], d[1], rng.uniform(12, 15), rng)
+        for s in (first, 0.5 * (first + last), last - 6):
+            _forest_card(chunks, s, s + rng.uniform(-8, 8), side * (near - 4), side * (near + 70), 13, rng)
+
+
+def build(furniture):
+    planter = _Planter()
+    _rows(planter)
+    _stands(planter)
+    _hedges()
+    _tufts(furniture)
+    forest = Chunks("forest", 150.0)
+    _forest(forest)
+    forest.build()
+    return planter.count
