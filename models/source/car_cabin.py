@@ -1,0 +1,2 @@
+def make(material_of):
+    pass
