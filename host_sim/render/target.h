@@ -1,0 +1,53 @@
+// What a picture is drawn into: HDR colour and depth, both textures, so that the plugin can read them.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "window/context.h"
+
+namespace host {
+
+/// RGBA16F colour and 32-bit float depth.
+class Target {
+ public:
+  Target(const Context& context, glm::ivec2 size_px);
+  ~Target();
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  /// Makes the textures anew when the size differs; the names change then.
+  void resize(glm::ivec2 size_px);
+  glm::ivec2 sizePx() const { return size_px_; }
+  std::uint32_t framebuffer() const { return framebuffer_; }
+  std::uint32_t colour() const { return colour_; }
+  std::uint32_t depth() const { return depth_; }
+
+ private:
+  void release();
+  const GladGLContext& gl_;
+  glm::ivec2 size_px_{0};
+  GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
+};
+
+/// An sRGB picture to be read back: what toneMap writes when there is no window.
+class Picture {
+ public:
+  Picture(const Context& context, glm::ivec2 size_px);
+  ~Picture();
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+
+  glm::ivec2 sizePx() const { return size_px_; }
+  std::uint32_t framebuffer() const { return framebuffer_; }
+  /// RGB, 8 bits each, top row first.
+  std::vector<std::uint8_t> read() const;
+
+ private:
+  const GladGLContext& gl_;
+  glm::ivec2 size_px_;
+  GLuint framebuffer_ = 0, colour_ = 0;
+};
+
+}  // namespace host
