@@ -1,0 +1,60 @@
+// Records that travel between the glass's CPU and GPU parts. Volumes are whole picolitres (1e-15 m^3), so that sums are exact in any order.
+#ifndef RG_SHARED_GLASS_TYPES_GLSL
+#define RG_SHARED_GLASS_TYPES_GLSL
+#include "shared/compat.glsl"
+RG_SHARED_BEGIN
+
+RG_CONST float kPicolitre_m3 = 1.0e-15f;
+RG_CONST int kTileSize = 16;      // texels along a tile's side: a work group of the film, and the grain of what it reports
+RG_CONST int kBladeSegments = 64; // a blade's ridge is kept in so many pieces along it
+RG_CONST int kMaxGlassWipers = 8; // on one pane
+
+// A drop as it is to be drawn. Grid metres: the pane's film grid, x along its columns, y along its rows, cells `texel_m` wide, origin in the
+// corner of cell (0, 0); uv = uv_origin + position / metres_per_uv (see PaneGrid). Place it at position + velocity * (time - snapshot's time).
+struct GlassDropRecord {
+  vec2 position_m;         // middle of the wetted base
+  vec2 velocity_mps;       // grid metres per second; 0 when it sticks
+  vec2 heading;            // unit, grid axes: the long axis of the base; a moving drop's head is there
+  float base_radius_m;     // of the circle of the base's area, real metres
+  float height_m;          // of the spherical cap of this base and volume
+  float contact_angle_rad; // of that cap
+  float elongation;        // length : width of the base, >= 1
+  uint seed;               // for an outline that is its own
+  float age_s;             // since it met the glass or last merged
+};
+RG_SIZE(GlassDropRecord, 48)
+
+// What drives water on the glass, given at the corners of tiles and linear between them: grid axes, real metres.
+struct FilmNode {
+  vec4 drive;  // xy: acceleration along the glass, m/s^2; zw: shear stress of the air on a film, N/m^2
+  vec4 metric; // xy: metres for one texel along x, y; z: 1 / area of a texel, 1/m^2; w: direction of "up" along the glass as an angle, rad
+};
+RG_SIZE(FilmNode, 32)
+
+// What a tile reports of one film step. Sums of 256 texels may pass 32 bits, so the film's is split: low 16 bits and the rest.
+struct FilmTile {
+  int event_texel;   // the texel that gave water to the drops, or -1
+  int event_pl;      // how much
+  uint film_low_pl;  // sum of (volume & 0xffff)
+  uint film_high;    // sum of (volume >> 16)
+  int drained_pl;
+  int blown_pl;
+  int evaporated_pl;
+  int unused;
+};
+RG_SIZE(FilmTile, 32)
+
+// CPU to GPU, in the order they happened.
+struct FilmAdd { int texel; int volume_pl; };             // rain, trails, drops that dissolve
+RG_SIZE(FilmAdd, 8)
+struct FilmTake { int texel; int share_65536; };          // a drop ran over this much of the texel; no texel twice in a step
+RG_SIZE(FilmTake, 8)
+struct RidgeAdd { int segment; int volume_pl; };          // a drop under a blade; segment = wiper slot * kBladeSegments + piece
+RG_SIZE(RidgeAdd, 8)
+struct RidgeLeave { int segment; int first; int count; int unused; }; // the ridge's water goes to `count` texels of a list; 0: off the glass
+RG_SIZE(RidgeLeave, 16)
+struct SweptTexel { int texel; int segment; };            // static: sorted by the angle at which the blade crosses
+RG_SIZE(SweptTexel, 8)
+
+RG_SHARED_END
+#endif
