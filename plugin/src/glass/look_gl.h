@@ -7,6 +7,8 @@
 #include <memory>
 #include <span>
 
+#include "shared/glass_types.glsl"
+
 struct GladGLContext;
 
 namespace rg::glass {
@@ -47,16 +49,18 @@ struct LookPane {
   int32_t index_count = 0;
   glm::vec3 centre_m{0.0f};  // of the pane's bounding sphere, vehicle frame: panes are drawn from far to near
   float radius_m = 0.0f;
-  // Film: R32I/R32UI volume in each texel; `film_unit_m3` is the volume of one count. Cells are `cell_m` wide on the glass.
-  uint32_t film = 0;  // 0: no film
+  // The grid's maps, all of `film_size`: uv 0..1 spans the grid.
   glm::ivec2 film_size{0};
-  float film_unit_m3 = 0.0f;
-  uint32_t metric = 0;  // RGBA32F beside the film, per texel: metres of glass for one texel along u, along v, cosine between both, area in m^2
-  uint32_t frame = 0;   // RGBA16F array of 2 layers beside it: unit tangents along u and along v in the vehicle's frame
-  uint32_t mist = 0;    // R16F beside it or 0: share of the area under droplets too small to be drawn
-  // Drops: rg::shared::LookDrop records in an SSBO.
+  float texel_m = 3e-3f;  // a cell in grid metres: uv = position_m / (texel_m * film_size)
+  uint32_t position = 0;  // RGBA32F: the middle of each texel in the vehicle's frame, m; carried on past the pane's edge
+  uint32_t metric = 0;    // RGBA32F: metres of glass for one texel along u, along v, cosine between both, area in m^2
+  uint32_t frame = 0;     // RGBA16F array of 2 layers: unit tangents along u and along v in the vehicle's frame, likewise carried on
+  uint32_t film = 0;      // R32I volume in each texel in units of film_unit_m3, < 0 off the pane; 0: no film
+  float film_unit_m3 = shared::kPicolitre_m3;
+  // Drops: shared::GlassDropRecord in an SSBO. A record of seed 0 has a perfectly round outline (placed drops), others their own.
   uint32_t drop_buffer = 0;
   int32_t drop_count = 0;
+  float drop_age_s = 0.0f;  // the picture's time minus the records': drops are drawn moved on by so much
 };
 
 struct LookSettings {
@@ -67,7 +71,7 @@ struct LookSettings {
   bool dry_reflection = true;    // dry glass reflects its surroundings when looked at from outside
 };
 
-// Draws scene and sky (no rain, panes, cabin) into `framebuffer`, whole viewport `size_px`, with these matrices.
+// Draws scene and sky (no rain, panes, cabin) into `framebuffer`, whole viewport `size_px`, with these matrices; GL's usual depth.
 using DrawScene = std::function<void(uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld, const glm::dmat4& clipFromEye)>;
 
 class GlassLook {
