@@ -1,0 +1,154 @@
+// A falling drop's record, where the drop is, and the streak it draws during an exposure, clipped at shelters.
+#ifndef RG_SHARED_RAIN_STREAK_GLSL
+#define RG_SHARED_RAIN_STREAK_GLSL
+#include "shared/compat.glsl"
+RG_SHARED_BEGIN
+
+RG_CONST uint kRainClasses = 32u;
+RG_CONST uint kRainNearPlanes = 512u;  // 8 KiB: with the volumes it stays below the 16 KiB every driver gives a uniform block
+RG_CONST uint kRainNearVolumes = 64u;
+RG_CONST float kRainEndUnits = 1024.0f;  // steps of RainDrop.end in a tick: 8 us, 0.3 mm of path at 40 m/s
+
+// Written once, when the drop is born (again only when its end changes). Its place is kept as cell and fraction of its class's standing
+// lattice: integers do not wear out however far the drop is from the origin, nor however long it rains.
+struct RainDrop {
+  int cell_x;
+  int cell_y;
+  int cell_z;
+  uint fraction_xy;  // 16 bits each: 0.05 mm in the largest cells
+  uint fraction_z_class;
+  float diameter_m;  // 0: no drop in this slot
+  uint end;          // when it dies in a shelter, in 1/1024 tick since the field's start, modulo 2^32; compare by difference
+  uint id;
+};
+RG_SIZE(RainDrop, 32)
+
+// A class's standing frame, as seen from the eye at the time of drawing.
+struct RainClass {
+  vec4 corner_cell;     // xyz: the corner of cell `base` from the eye, world axes, m; w: the cell's size, m
+  vec4 velocity_reach;  // xyz: of the drops, world axes, m/s; w: how far a drop is seen per metre of its diameter
+  ivec4 base;           // xyz: the eye's cell; w unused
+};
+RG_SIZE(RainClass, 48)
+
+// A convex volume near the eye: planes [first, first + count) of RainShelter.planes.
+struct RainVolume {
+  vec4 sphere;  // centre from the eye, radius
+  uint first;
+  uint count;
+  uint spare0;
+  uint spare1;
+};
+RG_SIZE(RainVolume, 32)
+
+struct RainShelter {
+  vec4 planes[kRainNearPlanes];  // inside where dot(xyz, p from the eye) <= w
+  RainVolume volumes[kRainNearVolumes];
+  uint volume_count;
+  uint spare0;
+  uint spare1;
+  uint spare2;
+};
+
+struct RainView {
+  vec4 eye_velocity_exposure;  // xyz: of the eye, m/s; w: exposure time, s
+  uint now;                    // the picture's time as in RainDrop.end
+  float tick_s;
+  uint spare0;
+  uint spare1;
+};
+RG_SIZE(RainView, 32)
+
+// A streak as seen from the eye, world axes: the drop's place, its velocity past the eye, and the times about the picture's between which
+// the streak is drawn. from_s > to_s: nothing is drawn.
+struct RainStreak {
+  vec3 drop_m;
+  vec3 velocity_mps;
+  float from_s;
+  float to_s;
+  float fade;  // 0 .. 1: towards the end of its reach drops dissolve into what lies beyond
+};
+
+// The shelter is a uniform block in shaders and a parameter in C++.
+#ifdef __cplusplus
+#define RG_RAIN_SHELTER , const RainShelter& rain_shelter
+#define RG_RAIN_SHELTER_PASS , rain_shelter
+#else
+#define RG_RAIN_SHELTER
+#define RG_RAIN_SHELTER_PASS
+#endif
+
+RG_FN uint rainClassOf(RainDrop drop) { return drop.fraction_z_class >> 16u; }
+
+// From the eye, world axes.
+RG_FN vec3 rainPlace(RainDrop drop, RainClass c) {
+  vec3 cells = vec3(float(drop.cell_x - c.base.x), float(drop.cell_y - c.base.y), float(drop.cell_z - c.base.z));
+  vec3 fraction = vec3(float(drop.fraction_xy & 0xffffu), float(drop.fraction_xy >> 16u), float(drop.fraction_z_class & 0xffffu));
+  return xyz(c.corner_cell) + (cells + (fraction + 0.5f) * (1.0f / 65536.0f)) * c.corner_cell.w;
+}
+
+// The times at which a point that moves from `p` with `v` lies inside a convex volume: (enter, leave), enter > leave when never.
+// Planes are moved out by `radius_m`, so that the drop as a whole stays outside. (Cyrus & Beck 1978.)
+RG_FN vec2 rainTimesInside(uint volume, vec3 p, vec3 v, float radius_m RG_RAIN_SHELTER) {
+  vec2 span = vec2(-1.0e9f, 1.0e9f);
+  uint first = rain_shelter.volumes[volume].first;
+  uint end = first + rain_shelter.volumes[volume].count;
+  for (uint i = first; i < end; ++i) {
+    vec4 plane = rain_shelter.planes[i];
+    float outside = dot(xyz(plane), p) - plane.w - radius_m;
+    float rate = dot(xyz(plane), v);
+    if (abs(rate) < 1.0e-6f) {
+      if (outside > 0.0f) return vec2(1.0f, -1.0f);
+    } else if (rate > 0.0f) {
+      span.y = min(span.y, -outside / rate);
+    } else {
+      span.x = max(span.x, -outside / rate);
+    }
+  }
+  return span;
+}
+
+// Whether the streak can touch the volume's sphere at all.
+RG_FN bool rainMayTouch(uint volume, vec3 p, vec3 v, float from_s, float to_s RG_RAIN_SHELTER) {
+  vec3 to_centre = xyz(rain_shelter.volumes[volume].sphere) - p;
+  float s = clamp(dot(to_centre, v) / max(dot(v, v), 1.0e-12f), from_s, to_s);
+  vec3 miss = to_centre - v * s;
+  float reach = rain_shelter.volumes[volume].sphere.w + 0.01f;
+  return dot(miss, miss) < reach * reach;
+}
+
+// The streak that a drop draws. It is centred in the exposure and ends where it would enter a volume; a drop inside one draws nothing.
+RG_FN RainStreak rainStreak(RainDrop drop, RainClass c, RainView view RG_RAIN_SHELTER) {
+  RainStreak streak;
+  streak.drop_m = rainPlace(drop, c);
+  streak.velocity_mps = xyz(c.velocity_reach) - xyz(view.eye_velocity_exposure);
+  float half_s = 0.5f * view.eye_velocity_exposure.w;
+  float left_s = float(int(drop.end - view.now)) * (view.tick_s / kRainEndUnits);
+  streak.from_s = -half_s;
+  streak.to_s = min(half_s, left_s);
+  float reach_m = c.velocity_reach.w * drop.diameter_m;
+  streak.fade = 1.0f - smoothstep(0.6f * reach_m, reach_m, length(streak.drop_m));
+  if (left_s <= 0.0f || drop.diameter_m <= 0.0f || streak.fade <= 0.0f) {
+    streak.from_s = 1.0f;
+    streak.to_s = -1.0f;
+    return streak;
+  }
+  for (uint i = 0u; i < rain_shelter.volume_count; ++i) {
+    if (!rainMayTouch(i, streak.drop_m, streak.velocity_mps, streak.from_s, streak.to_s RG_RAIN_SHELTER_PASS)) continue;
+    vec2 inside = rainTimesInside(i, streak.drop_m, streak.velocity_mps, 0.5f * drop.diameter_m RG_RAIN_SHELTER_PASS);
+    if (inside.x >= inside.y) continue;
+    if (inside.y <= 0.0f) {
+      streak.from_s = max(streak.from_s, inside.y);
+    } else if (inside.x >= 0.0f) {
+      streak.to_s = min(streak.to_s, inside.x);
+    } else {
+      streak.from_s = 1.0f;
+      streak.to_s = -1.0f;
+      return streak;
+    }
+  }
+  return streak;
+}
+
+RG_SHARED_END
+#endif
