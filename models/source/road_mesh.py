@@ -1,6 +1,7 @@
 """Meshes built from numpy: quads, grids, boxes and tubes, collected and turned into Blender objects."""
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 import road_materials
 
@@ -107,7 +108,7 @@ def place(name, data, frame=None, scale=1.0, extras=None):
         matrix = np.eye(4)
         matrix[:3, :3] = np.asarray(axes).T * scale
         matrix[:3, 3] = origin
-        thing.matrix_world = [list(map(float, row)) for row in matrix]
+        thing.matrix_world = Matrix(matrix.tolist())
     if extras:
         thing["rainglass"] = extras
     bpy.context.scene.collection.objects.link(thing)
