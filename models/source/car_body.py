@@ -60,12 +60,12 @@ def flanks(body):
     arch_f = on_side(arch_curve(shape.WHEELBASE_M, 27.3, 180 - ARCH_LOW))
     wing = np.concatenate([arch_f, on_side([(2.28, 0.20), (2.0, 0.20)])[1:], on_side([(1.985, 0.20), (1.985, 0.272)]), door_f, belt(1.975, 3.035)[1:-1],
                            front[::-1]])
-    panel(body, "paint", shape.side, [wing], 0.06, mirror=True, edge_step=0.034)
+    panel(body, "paint", shape.side, [wing], 0.045, mirror=True, edge_step=0.025)
     bottom = lambda a, b: on_side([(a, 0.272), (b, 0.272)])[1:-1]
     door1 = np.concatenate([door_f[::-1], bottom(1.985, 0.975), door_m, belt(0.965, 1.975)[1:-1]])
     door2 = np.concatenate([door_m[::-1], bottom(0.975, 0.42), door_r, belt(-0.03, 0.965)[1:-1]])
     for door in (door1, door2):
-        panel(body, "paint", shape.side, [door], 0.06, mirror=True, edge_step=0.034)
+        panel(body, "paint", shape.side, [door], 0.045, mirror=True, edge_step=0.025)
     sill = np.concatenate([on_side([(1.985, 0.272), (1.985, 0.20), (2.0, 0.17), (0.37, 0.17), (0.37, 0.272), (1.985, 0.272)])[:-1]])
     panel(body, "black_plastic", shape.side, [sill], 0.06, mirror=True, edge_step=0.03)
     arch_r = on_side(arch_curve(0.0, ARCH_LOW, 168))
@@ -73,7 +73,7 @@ def flanks(body):
     quarter = np.concatenate([door_r[::-1][:-1], on_side([(0.42, 0.272), (0.37, 0.272), (0.357, 0.20)]), arch_r,
                               [(shape.side_at(-0.45, 0.565)[0], 0.565), (rear_end, 0.565), (rear_end, shape.belt_z(-0.8))],
                               tail_belt(rear_end)])
-    panel(body, "paint", shape.side, [quarter, tail_lamp_outline()], 0.06, mirror=True, edge_step=0.034)
+    panel(body, "paint", shape.side, [quarter, tail_lamp_outline()], 0.045, mirror=True, edge_step=0.025)
 
 
 def tail_belt(rear_end):
@@ -110,7 +110,7 @@ def nose(body):
     loop = np.concatenate([left, top_edge, right, np.stack([s_low, np.full(70, 0.175)], -1)])
     lamp = head_lamp_outline()
     grille, intake = nose_box(0.43, 0.590, 0.652, 0.02, 0.02), nose_box(0.56, 0.225, 0.400, -0.10, 0.03)
-    panel(body, "paint", shape.side, [loop, lamp, lamp * [-1, 1], grille, intake], 0.055, edge_step=0.034, depth=0.02)
+    panel(body, "paint", shape.side, [loop, lamp, lamp * [-1, 1], grille, intake], 0.045, edge_step=0.022, depth=0.02)
     for opening, rows in ((grille, 4), (intake, 7)):
         mesh_grille(body, opening, rows)
     chrome = nose_box(0.425, 0.5925, 0.598, 0.0, 0.002)
@@ -154,24 +154,16 @@ def tail(body):
     s = np.linspace(edge, other, 61)
     gate = np.concatenate([[(edge, 0.60)], np.stack([s[1:-1], np.full(59, 0.60 - 0.0)], -1), [(other, 0.60)],
                            np.stack([s[::-1], np.full(61, 0.985)], -1)])
-    panel(body, "paint", shape.side, [gate], 0.055, edge_step=0.03)
+    panel(body, "paint", shape.side, [gate], 0.045, edge_step=0.03)
     arch_end = on_side(arch_curve(0.0, 168, 180 - ARCH_LOW))
     corner = shape.side_at(-0.45, 0.565)[0]
     left = np.concatenate([[(corner, 0.565), (edge, 0.565), (edge, 0.60)]])
     s_low = np.linspace(2 * shape.RING - arch_end[-1, 0] - 0.02, arch_end[-1, 0] + 0.02, 80)
     loop = np.concatenate([arch_end[::-1], left, np.stack([s[1:-1], np.full(59, 0.60)], -1), (left * [-1, 1] + [2 * shape.RING, 0])[::-1],
                            arch_end * [-1, 1] + [2 * shape.RING, 0], np.stack([s_low, np.full(80, 0.18)], -1)])
-    panel(body, "paint", shape.side, [loop], 0.055, edge_step=0.034)
+    panel(body, "paint", shape.side, [loop], 0.045, edge_step=0.025)
     low = rounded([(edge + 0.02, 0.20), (other - 0.02, 0.20), (other - 0.06, 0.33), (edge + 0.06, 0.33)], 0.03)
     panel(body, "black_plastic", shape.side, [low], 0.05, gap=0, offset=0.004)
-    s = np.linspace(shape.belt_at(np.array([-0.60]))[0, 0], shape.RING, 40)
-    low = shape.side(np.stack([s, shape.belt_z(shape.outline(s)[0]) - 0.004], -1))
-    one, other = frame_rails()
-    u = np.linspace(1, 0, 30)
-    foot = np.concatenate([evenly(np.array([one[-1], other[-1]]), 5)[:-1], shape.rear_screen(np.stack([u, np.full(30, 0.004)], -1))])
-    foot = evenly(foot, 40)
-    rim = 0.5 * (low + foot) + 0.35 * (low - foot) * [1, 1, 0] + np.array([0, 0, 0.25]) * np.abs(foot - low)[:, 2:] 
-    body.add(np.array([low, rim, foot]), grid_faces(3, 40), "paint", mirror=True)
     plate(body, shape.side(np.array([[shape.RING, 0.70]]))[0] + [-0.010, 0, 0], -1)
     handle, f = rounded_box(shape.side(np.array([[shape.RING, 0.80]]))[0] + [-0.012, 0, 0], (0.03, 0.50, 0.022), 0.008)
     body.add(handle, f, "chrome")
@@ -282,19 +274,10 @@ def cowl_and_frit(body):
         a = 0.30 * (1 if k % 2 else -1) + (k // 2 - 8.5) * 0.017
         i = np.interp(a, y, np.arange(41))
         p = np.array([np.interp(i, np.arange(41), rows[2][:, c]) for c in range(3)])
-        v, f = rounded_box(p + [0, 0, 0.004], (0.040, 0.006, 0.006), 0.002, segments=1)
+        v, f = rounded_box(p + [0, 0, 0.004], (0.040, 0.006, 0.006), 0.002)
         body.add(v, f, "black_gloss")
-    frit(body, shape.screen, (0.045, 0.045, 0.055, 0.050), False)
-    sensor_patch(body)
+    frit(body, shape.screen, (0.045, 0.040, 0.085, 0.050), False)
     frit(body, shape.rear_screen, (0.07, 0.07, 0.10, 0.08), True)
-
-
-def sensor_patch(body):
-    """The band widens where the mirror's foot and the camera sit."""
-    loop = rounded([(-0.16, 0.97), (-0.13, 0.76), (0.13, 0.76), (0.16, 0.97)], 0.03, 6)
-    xy, tris, _ = fill([loop], 0.05, 0.03)
-    n = surface_normals(shape.screen, xy)
-    body.add(shape.screen(xy) - 0.0045 * n, tris, "frit", n)
 
 
 def frit(body, surface, margins, flip):
@@ -382,9 +365,9 @@ def lamps(material_of):
 
 
 def spot(name, at):
-    """Low beam: a spot pointed 2 degrees down; some 25 000 cd, which the exporter makes of Blender's watts by 683 lm/W over 4 pi sr."""
+    """Low beam: a spot pointed 2 degrees down; some 1000 lm in a wide cone, in Blender's watts."""
     lamp = bpy.data.lights.new(name, "SPOT")
-    lamp.energy, lamp.color, lamp.spot_size, lamp.spot_blend = 450.0, (1.0, 0.95, 0.86), np.radians(64), 0.75
+    lamp.energy, lamp.color, lamp.spot_size, lamp.spot_blend = 900.0, (1.0, 0.95, 0.86), np.radians(64), 0.75
     down = np.radians(2.5)
     aim = np.array([np.cos(down), 0, -np.sin(down)])
     place(bpy.data.objects.new(name, lamp), at, axes_for(-aim, (0, 1, 0)), rainglass={"type": "light", "role": "head"})

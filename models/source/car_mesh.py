@@ -126,11 +126,11 @@ def flipped(faces):
 
 
 def resample(points, step):
-    """A polyline (open) with no step longer than `step`; its own points stay, doubled ones go."""
+    """A polyline (open) at nearly equal steps; its corners sharper than 20 degrees stay."""
     points = np.asarray(points, float)
     out = [points[0]]
     for a, b in zip(points[:-1], points[1:]):
-        n = int(np.ceil(np.linalg.norm(b - a) / step - 1e-6))
+        n = max(1, int(np.ceil(np.linalg.norm(b - a) / step)))
         out += [a + (b - a) * k / n for k in range(1, n + 1)]
     return np.array(out)
 
@@ -232,8 +232,7 @@ def fill(loops, step, edge_step=None):
     rings = [[first[i] for i in ring] for ring in rings]
     tris = np.array([f for f in out[2]])
     middle = xy[tris].mean(1)
-    a, b = xy[tris[:, 1]] - xy[tris[:, 0]], xy[tris[:, 2]] - xy[tris[:, 0]]
-    ok = inside(middle, loops[0]) & (np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) > 1e-7)  # slivers along straight edges go
+    ok = inside(middle, loops[0])
     for hole in loops[1:]:
         ok &= ~inside(middle, hole)
     return xy, tris[ok], rings
@@ -284,23 +283,13 @@ def panel(part, material, surface, loops, step=0.05, gap=0.003, radius=0.004, de
 def lathe(profile, segments, origin, axis, start=(0, 0, 1)):
     """Turns a profile of (radius, along) about an axis; counter-clockwise profiles face outward. Vertices, faces."""
     axis = unit(axis)
-    start = start if np.linalg.norm(np.cross(start, axis)) > 0.05 else (1.0, 0, 0)
     u = unit(np.asarray(start, float) - np.dot(start, axis) * axis)
     v = np.cross(axis, u)
     profile = np.asarray(profile, float)
     angle = np.arange(segments) * 2 * np.pi / segments
     ring = np.cos(angle)[:, None] * u + np.sin(angle)[:, None] * v
-    verts = (np.asarray(origin, float) + profile[:, None, :1] * ring[None] + profile[:, None, 1:] * axis).reshape(-1, 3)
-    on_axis = np.repeat(profile[:, 0] < 1e-9, segments)
-    first = np.arange(len(verts)) // segments * segments
-    faces = []
-    for f in grid_faces(len(profile), segments, wrap_cols=True):  # a ring on the axis is one vertex
-        g = [int(first[i]) if on_axis[i] else i for i in f]
-        faces.append(tuple(i for k, i in enumerate(g) if i != g[k - 1]))
-    used = np.unique(np.concatenate([np.array(f) for f in faces]))
-    new = np.zeros(len(verts), int)
-    new[used] = np.arange(len(used))
-    return verts[used], [tuple(int(new[i]) for i in f) for f in faces]
+    verts = np.asarray(origin, float) + profile[:, None, :1] * ring[None] + profile[:, None, 1:] * axis
+    return verts.reshape(-1, 3), grid_faces(len(profile), segments, wrap_cols=True)
 
 
 def tube(path, radius, sides=8, closed=False, section=None, up=(0, 0, 1), caps=True):
@@ -312,8 +301,6 @@ def tube(path, radius, sides=8, closed=False, section=None, up=(0, 0, 1), caps=T
         a = np.arange(sides) * 2 * np.pi / sides
         section = np.stack([np.cos(a), np.sin(a)], -1)
     section = np.asarray(section, float)
-    if np.ndim(up) == 1 and np.abs(along @ unit(up)).max() > 0.999:
-        up = (1.0, 0, 0)
     up = np.broadcast_to(np.asarray(up, float), path.shape)
     side = unit(np.cross(along, up))
     top = np.cross(side, along)

@@ -11,7 +11,7 @@ HALF_LENGTH, HALF_WIDTH = 0.5 * (NOSE_X - TAIL_X), 0.92
 FRONT_SHAPE, REAR_SHAPE = 3.7, 5.0  # superellipse exponents of the plan outline
 SILL_Z = 0.17
 
-EYE = np.array([0.97, 0.37, 1.21])
+EYE = np.array([0.97, 0.37, 1.20])
 
 # Windscreen: 0.8 m along a slope of 30 degrees, middle of its lower edge here; the sides lie 0.13 m further back,
 # which is a bow of 65 mm along the normal.
@@ -80,8 +80,8 @@ def s_of_tail_y(y):
 
 def belt_z(x):
     """Upper edge of the lower body: bonnet edge, belt line, tail."""
-    return interp(x, [(-0.80, 0.985), (-0.4, 0.995), (0.3, 0.985), (1.2, 0.962), (1.95, 0.940), (2.3, 0.920), (2.7, 0.884),
-                      (3.1, 0.822), (3.35, 0.755), (3.52, 0.70)])
+    return interp(x, [(-0.80, 0.985), (-0.4, 0.995), (0.3, 0.985), (1.2, 0.962), (1.95, 0.935), (2.3, 0.905), (2.7, 0.855),
+                      (3.1, 0.788), (3.35, 0.728), (3.52, 0.69)])
 
 
 def side(p):
@@ -144,7 +144,7 @@ def bonnet(p):
     x, y = np.asarray(p, float).T
     edge_z = np.interp(-x, -_BELT[:, 0], _BELT[:, 2])
     half = np.maximum(bonnet_half(x), 1e-3)
-    crown = 0.074 * (1 - smooth(x, 2.75, 3.46)) + 0.016 * smooth(x, 3.46, 3.2)
+    crown = 0.068 * (1 - smooth(x, 2.75, 3.46)) + 0.016 * smooth(x, 3.46, 3.2)
     t = np.clip(np.abs(y) / half, 0, 1)
     ridge = 0.010 * np.exp(-((t - 0.60) / 0.09)**2) * smooth(x, 3.4, 2.9)
     return np.stack([x, y, edge_z + crown * (1 - t**2.4) + ridge], -1)

@@ -29,8 +29,7 @@ PLAIN = {
     "car_blue": (None, (0.03, 0.07, 0.16), 0.25, 0.3), "car_red": (None, (0.22, 0.02, 0.02), 0.25, 0.2),
     "car_silver": (None, (0.40, 0.41, 0.42), 0.3, 0.6), "car_glass": (None, (0.02, 0.025, 0.03), 0.08, 0), "tyre": (None, (0.02, 0.02, 0.02), 0.9, 0),
 }
-# name: texture, both sides drawn. One-sided ones come with both windings where both are seen: each side keeps its normals.
-MASKED = {"leaves": ("leaves", True), "leaves_upright": ("leaves", False), "forest": ("forest", False)}
+MASKED = {"leaves": "leaves", "forest": "forest"}
 GLOWING = {"lamp_warm": (1.0, 0.80, 0.52), "lamp_white": (1.0, 0.97, 0.90), "exit_green": (0.05, 0.8, 0.25), "tail_red": (0.4, 0.01, 0.01)}
 ALPHA = {"leaves": road_foliage.leaves, "forest": road_foliage.forest}
 
@@ -128,11 +127,11 @@ def _asphalt(name):
 
 def _masked(name):
     material, shader, links = _start(name, 0.9, 0)
-    texture = _texture(material, MASKED[name][0])
+    texture = _texture(material, MASKED[name])
     links.new(texture.outputs["Color"], shader.inputs["Base Color"])
     links.new(texture.outputs["Alpha"], shader.inputs["Alpha"])
     material.blend_method, material.alpha_threshold = "CLIP", 0.4
-    material.use_backface_culling = not MASKED[name][1]
+    material.use_backface_culling = False
     return material
 
 

@@ -55,13 +55,12 @@ def _trunk(mesh, rng, height, radius, material, branches, reach):
 def _broadleaf(seed, height, wide, cards, tile="broad", dark="broad_dark"):
     mesh, rng = Mesh(), np.random.default_rng(seed)
     _trunk(mesh, rng, height * 0.72, height * 0.026, "bark", 5, wide * 0.5)
-    parts = 8
+    parts = 4
     for k in range(parts):
-        t = k / (parts - 1)
-        a = k * 2.39996 + rng.normal(0, 0.3)
-        off = np.array([np.cos(a), np.sin(a), 0]) * wide * 0.58 * np.sqrt(1 - t) * rng.uniform(0.75, 1.15)
-        level, size = height * (0.42 + 0.42 * t + 0.03 * rng.normal()), wide * rng.uniform(0.40, 0.56) * (1 - 0.25 * t)
-        _crown(mesh, rng, off + [0, 0, level], (size, size, 0.8 * size), cards // parts, 0.62 * size, tile, dark)
+        a = k * 2 * np.pi / (parts - 1) + rng.normal(0, 0.3)
+        off = np.array([np.cos(a), np.sin(a), 0]) * wide * (0.42 if k < parts - 1 else 0.0)
+        level = height * (0.55 + 0.06 * rng.normal()) if k < parts - 1 else height * 0.76
+        _crown(mesh, rng, off + [0, 0, level], (wide * 0.62, wide * 0.62, height * 0.23), cards // parts, wide * 0.30, tile, dark)
     return mesh.data(f"tree_{seed}")
 
 
@@ -69,7 +68,7 @@ def _birch(seed):
     mesh, rng = Mesh(), np.random.default_rng(seed)
     _trunk(mesh, rng, 10.5, 0.13, "bark_birch", 4, 1.0)
     for level, wide in ((4.6, 1.5), (6.6, 1.9), (8.6, 1.6), (10.4, 1.0)):
-        _crown(mesh, rng, (rng.normal(0, 0.2), rng.normal(0, 0.2), level), (wide, wide, 1.5), 20, 0.85, "birch", "broad")
+        _crown(mesh, rng, (rng.normal(0, 0.2), rng.normal(0, 0.2), level), (wide, wide, 1.5), 17, 0.85, "birch", "broad")
     return mesh.data(f"birch_{seed}")
 
 
@@ -144,7 +143,7 @@ def _is_free(s, d, wide):
 
 
 def _kinds():
-    return {"o": ([_broadleaf(1, 12.0, 4.4, 144), _broadleaf(2, 10.0, 4.0, 128)], 3.5), "q": ([_broadleaf(3, 7.5, 2.8, 104), _broadleaf(13, 8.6, 2.9, 104)], 2.5),
+    return {"o": ([_broadleaf(1, 11.5, 4.3, 100), _broadleaf(2, 9.5, 3.9, 88)], 3.5), "q": ([_broadleaf(3, 7.5, 2.8, 72)], 2.5),
             "b": ([_birch(4), _birch(5)], 2.0), "s": ([_spruce(6, 13.0), _spruce(7, 10.5)], 2.3), "u": ([_bush(8, 1.3, 1.7), _bush(9, 1.8, 2.2)], 1.2)}
 
 
@@ -189,17 +188,6 @@ def _hedges():
             place(f"hedge_{s:.0f}_{d:.0f}", data, (terrain.at(s, d), route.frame(s)[1]))
 
 
-def _both_sides(mesh, corners, material, uv, normal=None):
-    """An upright card seen from either side, lit alike: normals as given, or half up and half towards the viewer."""
-    corners = np.asarray(corners, float)
-    out = np.cross(corners[1] - corners[0], corners[3] - corners[0])
-    out /= np.linalg.norm(out)
-    for order, side in (((0, 1, 2, 3), 1), ((1, 0, 3, 2), -1)):
-        facing = np.asarray(normal) if normal is not None else side * out + [0, 0, 0.7]
-        u0, v0, u1, v1 = uv
-        mesh.quad(corners[list(order)], material, (u0, v0, u1, v1) if side > 0 else (u1, v0, u0, v1), np.tile(facing / np.linalg.norm(facing), (4, 1)))
-
-
 def _tufts(chunks):
     """Taller grass on verge and ditch: pairs of crossing cards, normals up so that they melt into the ground."""
     rng = np.random.default_rng(55)
@@ -216,7 +204,7 @@ def _tufts(chunks):
             up = np.array([0, 0, size * rng.uniform(0.7, 1.1)])
             corners = [foot - right - [0, 0, 0.05], foot + right - [0, 0, 0.05], foot + right + up, foot - right + up]
             tile = leaf_uv("reed" if rng.random() < 0.15 else "grass")
-            _both_sides(chunks.at(s), corners, "leaves_upright", tile, [0.0, 0.0, 1.0])
+            chunks.at(s).quad(corners, "leaves", tile, np.tile([0.0, 0.0, 1.0], (4, 1)))
 
 
 def _forest_card(chunks, s0, s1, d0, d1, tall, rng):
@@ -226,7 +214,8 @@ def _forest_card(chunks, s0, s1, d0, d1, tall, rng):
     u0 = rng.random()
     up = np.array([0, 0, tall])
     low = np.array([0, 0, 2.0])
-    _both_sides(chunks.at(min(s0, s1)), [a - low, b - low, b + up, a + up], "forest", (u0, 0.0, u0 + long / (4.4 * tall), 0.99))
+    towards = np.array([0.0, 0.0, 1.0]) * 0.6 + np.append(np.sign(-d0) * route.frame(s0)[1][1][:2], 0.0)
+    chunks.at(min(s0, s1)).quad([a - low, b - low, b + up, a + up], "forest", (u0, 0.0, u0 + long / (4.4 * tall), 0.99), np.tile(towards, (4, 1)))
 
 
 def _forest(chunks):

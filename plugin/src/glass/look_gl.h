@@ -1,4 +1,5 @@
-// What a driver sees of a pane: the world refracted by its film, blurred by unresolved droplets, and each drop traced as the lens it is.
+// What a driver sees of a pane: the world refracted by its film, blurred by unresolved droplets, and each
+// drop traced as the lens it is.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ struct GladGLContext;
 
 namespace rg::glass {
 
-// Whose picture it is. Matrices are named destinationFromSource; world coordinates may be large, so they stay double up to here.
+// Whose picture it is. Matrices are named destinationFromSource; world coordinates may be large, so they stay
+// double up to here.
 struct LookView {
   glm::dmat4 eyeFromWorld{1.0};
   glm::dmat4 clipFromEye{1.0};
@@ -22,7 +24,8 @@ struct LookView {
   bool reversed_depth = false;
 };
 
-// Where it is drawn. `color_texture` is what the framebuffer's colour 0 shows, or 0: then the picture is fetched from the framebuffer.
+// Where it is drawn. `color_texture` is what the framebuffer's colour 0 shows, or 0: then the picture is
+// fetched from the framebuffer.
 struct LookTarget {
   uint32_t framebuffer = 0;
   uint32_t color_texture = 0;
@@ -34,16 +37,19 @@ struct LookTarget {
 
 // Light that water and glass show besides the visible picture. Radiance in the host's unit.
 struct LookLight {
-  uint32_t environment_cube = 0;  // linear radiance with mips, world axes (+Z face up), or 0; used where no capture was made
+  uint32_t environment_cube =
+      0;  // linear radiance with mips, world axes (+Z face up), or 0; used where no capture was made
   glm::vec3 sky_radiance{0.0f};
   glm::vec3 ground_radiance{0.0f};
-  float cabin_share = 1.0f;  // how much of the environment's light comes from the side of the glass the cabin is on: 1 = no cabin there
+  float cabin_share = 1.0f;  // how much of the environment's light comes from the side of the glass the cabin
+                             // is on: 1 = no cabin there
 };
 
 // A pane as it is to be seen. GL names are borrowed for the call.
 struct LookPane {
   glm::dmat4 worldFromVehicle{1.0};
-  // Mesh: floats {x, y, z, nx, ny, nz, u, v} in the vehicle's frame, normals outward (the wet side), uv those of `film`.
+  // Mesh: floats {x, y, z, nx, ny, nz, u, v} in the vehicle's frame, normals outward (the wet side), uv those
+  // of `film`.
   uint32_t vertex_buffer = 0;
   uint32_t index_buffer = 0;  // uint32_t triangles
   int32_t index_count = 0;
@@ -52,12 +58,17 @@ struct LookPane {
   // The grid's maps, all of `film_size`: uv 0..1 spans the grid.
   glm::ivec2 film_size{0};
   float texel_m = 3e-3f;  // a cell in grid metres: uv = position_m / (texel_m * film_size)
-  uint32_t position = 0;  // RGBA32F: the middle of each texel in the vehicle's frame, m; carried on past the pane's edge
-  uint32_t metric = 0;    // RGBA32F: metres of glass for one texel along u, along v, cosine between both, area in m^2
-  uint32_t frame = 0;     // RGBA16F array of 2 layers: unit tangents along u and along v in the vehicle's frame, likewise carried on
-  uint32_t film = 0;      // R32I volume in each texel in units of film_unit_m3, < 0 off the pane; 0: no film
+  uint32_t position =
+      0;  // RGBA32F: the middle of each texel in the vehicle's frame, m; carried on past the pane's edge
+  uint32_t metric =
+      0;  // RGBA32F: metres of glass for one texel along u, along v, cosine between both, area in m^2
+  uint32_t frame = 0;  // RGBA16F array of 2 layers: unit tangents along u and along v in the vehicle's frame,
+                       // likewise carried on
+  bool right_handed = false;  // cross(along u, along v) points out of the glass
+  uint32_t film = 0;  // R32I volume in each texel in units of film_unit_m3, < 0 off the pane; 0: no film
   float film_unit_m3 = shared::kPicolitre_m3;
-  // Drops: shared::GlassDropRecord in an SSBO. A record of seed 0 has a perfectly round outline (placed drops), others their own.
+  // Drops: shared::GlassDropRecord in an SSBO. A record of seed 0 has a perfectly round outline (placed
+  // drops), others their own.
   uint32_t drop_buffer = 0;
   int32_t drop_count = 0;
   float drop_age_s = 0.0f;  // the picture's time minus the records': drops are drawn moved on by so much
@@ -71,8 +82,10 @@ struct LookSettings {
   bool dry_reflection = true;    // dry glass reflects its surroundings when looked at from outside
 };
 
-// Draws scene and sky (no rain, panes, cabin) into `framebuffer`, whole viewport `size_px`, with these matrices; GL's usual depth.
-using DrawScene = std::function<void(uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld, const glm::dmat4& clipFromEye)>;
+// Draws scene and sky (no rain, panes, cabin) into `framebuffer`, whole viewport `size_px`, with these
+// matrices; GL's usual depth.
+using DrawScene = std::function<void(uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld,
+                                     const glm::dmat4& clipFromEye)>;
 
 class GlassLook {
  public:
@@ -83,12 +96,15 @@ class GlassLook {
 
   LookSettings settings;
 
-  // Draws panes with their water over the target's picture, far ones first. Needs the world behind them drawn and changes only colour: depth
-  // is tested, not written. Clean glass looked at from inside leaves the picture as it was, to the bit. GL state is not restored here (the
-  // caller's guard does): touches program, vertex array, textures 0..7, buffer binding points, framebuffer, viewport, blend, depth, raster.
-  void drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target, const LookLight& light);
+  // Draws panes with their water over the target's picture, far ones first. Needs the world behind them drawn
+  // and changes only colour: depth is tested, not written. Clean glass looked at from inside leaves the
+  // picture as it was, to the bit. GL state is not restored here (the caller's guard does): touches program,
+  // vertex array, textures 0..7, buffer binding points, framebuffer, viewport, blend, depth, raster.
+  void drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target,
+                 const LookLight& light);
 
-  // Renews the captured surroundings of the eye: at most `max_faces` pictures in this call, the forward one most often.
+  // Renews the captured surroundings of the eye: at most `max_faces` pictures in this call, the forward one
+  // most often.
   void capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw);
   // Captured pictures are no longer used (the host stopped giving them, or the eye was put elsewhere).
   void dropCapture();

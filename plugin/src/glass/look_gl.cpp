@@ -1,0 +1,239 @@
+#include "glass/look_gl.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+#include <vector>
+
+#include "gl/objects.h"
+#include "gl/program.h"
+#include "glass/look_capture_gl.h"
+#include "glass/look_picture_gl.h"
+
+namespace rg::glass {
+namespace {
+
+constexpr int kMeshStride = 8 * sizeof(float);
+constexpr float kFineRadius_px = 6.0f;
+
+enum Unit : GLuint { kPicture = 0, kEnvironment = 1, kFirst = 2, kSecond = 3, kThird = 4 };
+
+// As in shaders/optics/look_frame.glsl (std140).
+struct FrameBlock {
+  glm::mat4 clip_from_eye, eye_from_vehicle, eye_from_world, world_from_vehicle;
+  glm::vec4 eye_in_vehicle, sky_radiance, ground_radiance, viewport;
+  glm::vec2 uv_per_m;
+  float drop_age_s, outward;
+  float exposure, pixels_per_rad, environment_texels_per_rad, cabin_share;
+  float brightness, blur, fine_radius_px;
+  uint32_t has_environment;
+  uint32_t srgb, internal_reflections, dry_reflection;
+  float film_unit_m3;
+};
+static_assert(sizeof(FrameBlock) == 384, "std140 lays it out so");
+
+glm::mat4 rotationOf(const glm::dmat4& m) { return glm::mat4(glm::dmat4(glm::dmat3(m))); }
+
+float texelsPerRadian(const GladGLContext& gl, uint32_t cube) {
+  GLint size_px = 0;
+  gl.GetTextureLevelParameteriv(cube, 0, GL_TEXTURE_WIDTH, &size_px);
+  return static_cast<float>(size_px) / glm::half_pi<float>();
+}
+
+double distanceTo(const LookPane& pane, const LookView& view) {
+  return glm::length(glm::dvec3(view.eyeFromWorld * pane.worldFromVehicle * glm::dvec4(pane.centre_m, 1.0)));
+}
+
+bool isWet(const LookPane& pane) { return pane.film != 0 || pane.drop_count > 0; }
+
+}  // namespace
+
+struct GlassLook::Parts {
+  explicit Parts(const GladGLContext& context)
+      : gl(context),
+        film_program(gl, {"glass/look_screen.vert", "glass/look_film.frag"}),
+        pane_program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
+        drop_program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}),
+        frame_block(gl, sizeof(FrameBlock)),
+        mesh_layout(gl),
+        no_layout(gl),
+        smooth(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
+        mipped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
+        exact(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
+        film_target(gl),
+        picture(gl),
+        capture(gl) {
+    mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
+    mesh_layout.attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
+    mesh_layout.attribute(2, 0, 2, GL_FLOAT, 6 * sizeof(float));
+  }
+
+  void fillFrame(const LookPane& pane, const LookView& view, const LookTarget& target, const LookLight& light,
+                 const LookSettings& settings);
+  void bindLook(const LookLight& light);
+  void setState(const LookView& view, const LookTarget& target);
+  void composeFilm(const LookPane& pane);
+  void drawFilm(const LookPane& pane);
+  void drawDrops(const LookPane& pane);
+  void forget();
+  uint32_t environmentOf(const LookLight& light) const {
+    return capture.cube() != 0 ? capture.cube() : light.environment_cube;
+  }
+
+  const GladGLContext& gl;
+  gl::Program film_program, pane_program, drop_program;
+  gl::Buffer frame_block;
+  gl::VertexArray mesh_layout, no_layout;
+  gl::Sampler smooth, mipped, exact;
+  gl::Texture2D film_seen;  // of look_film.frag, for the pane being drawn
+  gl::Framebuffer film_target;
+  LookPicture picture;
+  LookCapture capture;
+};
+
+void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, const LookTarget& target,
+                                 const LookLight& light, const LookSettings& settings) {
+  const glm::dmat4 eyeFromVehicle = view.eyeFromWorld * pane.worldFromVehicle;
+  const uint32_t environment = environmentOf(light);
+  FrameBlock block{};
+  block.clip_from_eye = view.clipFromEye;
+  block.eye_from_vehicle = eyeFromVehicle;
+  block.eye_from_world = rotationOf(view.eyeFromWorld);
+  block.world_from_vehicle = rotationOf(pane.worldFromVehicle);
+  block.eye_in_vehicle = glm::inverse(eyeFromVehicle)[3];
+  block.sky_radiance = glm::vec4(light.sky_radiance, 0.0f);
+  block.ground_radiance = glm::vec4(light.ground_radiance, 0.0f);
+  block.viewport = glm::vec4(view.viewport_px);
+  block.uv_per_m = 1.0f / (pane.texel_m * glm::vec2(glm::max(pane.film_size, glm::ivec2(1))));
+  block.drop_age_s = pane.drop_age_s;
+  block.outward = pane.right_handed ? 1.0f : -1.0f;
+  block.exposure = target.exposure;
+  block.pixels_per_rad =
+      static_cast<float>(std::abs(view.clipFromEye[1][1])) * 0.5f * static_cast<float>(view.viewport_px.w);
+  block.environment_texels_per_rad = environment != 0 ? texelsPerRadian(gl, environment) : 0.0f;
+  block.cabin_share = light.cabin_share;
+  block.brightness = settings.brightness;
+  block.blur = settings.blur;
+  block.fine_radius_px = kFineRadius_px;
+  block.has_environment = environment != 0;
+  block.srgb = target.srgb;
+  block.internal_reflections = static_cast<uint32_t>(std::clamp(settings.internal_reflections, 0, 6));
+  block.dry_reflection = settings.dry_reflection;
+  block.film_unit_m3 = pane.film_unit_m3;
+  frame_block.write(0, &block, sizeof(block));
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block.name());
+}
+
+// What all of the look's shaders see by: the fetched picture and the environment.
+void GlassLook::Parts::bindLook(const LookLight& light) {
+  gl.BindTextureUnit(kPicture, picture.texture());
+  gl.BindSampler(kPicture, mipped.name());
+  gl.BindTextureUnit(kEnvironment, environmentOf(light));
+  gl.BindSampler(kEnvironment, mipped.name());
+  gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+}
+
+void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) {
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
+  gl.Viewport(view.viewport_px.x, view.viewport_px.y, view.viewport_px.z, view.viewport_px.w);
+  gl.ClipControl(GL_LOWER_LEFT, view.clip_zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(view.reversed_depth ? GL_GEQUAL : GL_LEQUAL);
+  gl.DepthMask(GL_FALSE);
+  gl.Disable(GL_CULL_FACE);
+  gl.Disable(GL_SCISSOR_TEST);
+  gl.BlendEquation(GL_FUNC_ADD);
+  gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // the target's alpha stays
+}
+
+void GlassLook::Parts::composeFilm(const LookPane& pane) {
+  if (!film_seen || film_seen.width() != pane.film_size.x || film_seen.height() != pane.film_size.y) {
+    film_seen = gl::Texture2D(gl, GL_RGBA16F, pane.film_size.x, pane.film_size.y);
+    film_target.attachColor(0, film_seen.name());
+    film_target.drawColors(1);
+    film_target.requireComplete("the film as it is seen");
+  }
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, film_target.name());
+  gl.Viewport(0, 0, pane.film_size.x, pane.film_size.y);
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_SCISSOR_TEST);
+  gl.Disable(GL_CULL_FACE);
+  gl.BindTextureUnit(kFirst, pane.film);
+  gl.BindTextureUnit(kSecond, pane.frame);
+  gl.BindTextureUnit(kThird, pane.metric);
+  for (const GLuint unit : {kFirst, kSecond, kThird}) gl.BindSampler(unit, exact.name());
+  gl.BindVertexArray(no_layout.name());
+  film_program.use();
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void GlassLook::Parts::drawFilm(const LookPane& pane) {
+  gl.Disable(GL_BLEND);
+  gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen.name() : 0);
+  gl.BindSampler(kFirst, smooth.name());
+  mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
+  mesh_layout.bindIndices(pane.index_buffer);
+  gl.BindVertexArray(mesh_layout.name());
+  pane_program.use();
+  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+}
+
+void GlassLook::Parts::drawDrops(const LookPane& pane) {
+  gl.Enable(GL_BLEND);
+  gl.BindTextureUnit(kFirst, pane.position);
+  gl.BindTextureUnit(kSecond, pane.frame);
+  gl.BindTextureUnit(kThird, pane.metric);
+  for (const GLuint unit : {kFirst, kSecond, kThird}) gl.BindSampler(unit, smooth.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.drop_buffer);
+  gl.BindVertexArray(no_layout.name());
+  drop_program.use();
+  gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, pane.drop_count);
+}
+
+void GlassLook::Parts::forget() {
+  for (gl::Program* program : {&film_program, &pane_program, &drop_program}) program->forget();
+  frame_block.forget();
+  mesh_layout.forget();
+  no_layout.forget();
+  for (gl::Sampler* sampler : {&smooth, &mipped, &exact}) sampler->forget();
+  film_seen.forget();
+  film_target.forget();
+  picture.forget();
+  capture.forget();
+}
+
+GlassLook::GlassLook(const GladGLContext& gl) : parts_(std::make_unique<Parts>(gl)) {}
+GlassLook::~GlassLook() = default;
+
+void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target,
+                          const LookLight& light) {
+  Parts& p = *parts_;
+  std::vector<const LookPane*> order;
+  for (const LookPane& pane : panes) {
+    if (isWet(pane) || settings.dry_reflection) order.push_back(&pane);
+  }
+  std::sort(order.begin(), order.end(), [&](const LookPane* a, const LookPane* b) {
+    return distanceTo(*a, view) > distanceTo(*b, view);
+  });
+  for (const LookPane* pane : order) {
+    p.picture.fetch(view.viewport_px, target);
+    p.fillFrame(*pane, view, target, light, settings);
+    if (pane->film != 0) p.composeFilm(*pane);
+    p.setState(view, target);
+    p.bindLook(light);
+    p.drawFilm(*pane);
+    if (pane->drop_count > 0) p.drawDrops(*pane);
+  }
+}
+
+void GlassLook::capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw) {
+  parts_->capture.renew(eyeFromWorld, settings.capture_size_px, max_faces, draw);
+}
+
+void GlassLook::dropCapture() { parts_->capture.drop(); }
+
+void GlassLook::abandon() { parts_->forget(); }
+
+}  // namespace rg::glass

@@ -1,0 +1,132 @@
+// A pixel of a drop: the ray from the eye is traced through the cap, face by face, and what leaves it looks up its surroundings.
+#include "shared/optics_drop.glsl"
+#include "optics/surroundings.glsl"
+
+in DropToPixel {
+  vec2 base;
+  vec3 from_eye;
+  flat vec4 cap;
+  flat vec4 outline;
+  flat mat3 world_from_drop;
+  flat int samples;
+} i;
+
+layout(location = 0) out vec4 color;
+
+// Light that arrives from where a ray leaves to, drop's frame.
+vec3 arriving(vec3 direction, float spread_rad) {
+  return surroundingsOfGlass(i.world_from_drop * direction, i.world_from_drop[2], spread_rad);
+}
+
+// Follows a ray that has entered. At each face a share leaves by Fresnel, the rest stays. A pixel's bundle of rays is `footprint` wide and
+// widens by `spread` rad for each radius of path; both are followed across the plane of incidence (d' = n d - (n cos i - cos t) N, N' = x / R),
+// where a bundle spreads least, so that pictures in drops stay sharp.
+vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread) {
+  vec3 sum = vec3(0.0);
+  float staying = 1.0;
+  for (uint k = 0u; k <= frame.internal_reflections; ++k) {
+    InnerHit hit = nextFace(cap, p, d);
+    float cosine = dot(d, hit.normal);
+    float curvature = hit.normal.z > -0.999 ? 1.0 / cap.radius : 0.0;
+    float reflected = fresnel(cosine, 1.0 / kWaterIndex);
+    float leaving = staying * (1.0 - reflected);
+    float across = footprint + spread * hit.path;  // of the ray bundle at this face
+    if (leaving > 0.004) {
+      vec3 out_direction = refract(d, -hit.normal, kWaterIndex);
+      float bend = (kWaterIndex * cosine - dot(out_direction, hit.normal)) * curvature * across;
+      sum += leaving * arriving(out_direction, abs(kWaterIndex * spread - bend));
+    }
+    staying *= reflected;
+    if (staying < 0.01) break;
+    spread = spread - 2.0 * curvature * across * cosine;
+    footprint = across;
+    d = reflect(d, hit.normal);
+    p = hit.position;
+  }
+  return sum + staying * arriving(d, 1.0);  // what is still inside leaves by many ways: the surroundings' mean about its direction
+}
+
+// Merged drops and those on dirty glass are not round, and those that run narrow towards the tail. Maps the glass so that the outline
+// becomes the ellipse that is traced.
+vec2 straighten(vec2 base) {
+  vec2 q = vec2(base.x / i.cap.z, base.y);
+  float angle = atan(q.y, q.x) + i.outline.z;
+  float ragged = i.outline.x * (0.12 * cos(2.0 * angle + 1.7 * i.outline.z) + 0.09 * cos(3.0 * angle) + 0.05 * cos(5.0 * angle - i.outline.z));
+  float narrow = 1.0 - 0.5 * i.outline.y * smoothstep(0.6, -1.0, q.x);
+  return vec2(base.x, base.y / narrow) / (1.0 + ragged);
+}
+
+struct Seen {
+  vec3 light;
+  float cover;  // share of the footprint the drop is seen in
+};
+
+// `footprint`: what a sample spans on the glass, across and along the view.
+Seen look(Cap cap, vec2 base, vec3 d, vec2 dx, vec2 dy) {
+  vec3 p = vec3(base, 0.0);
+  vec3 meet = meetCap(cap, p, d);
+  // Signed distances in base radii: to the base's outline, seen from the dry side only, and to the cap's.
+  vec2 q = vec2(base.x / cap.stretch, base.y);
+  float q_length = max(length(q), 1e-4);
+  vec2 base_gradient = -vec2(q.x / cap.stretch, q.y) / q_length;
+  float base_inside = (1.0 - q_length) / max(length(vec2(dot(base_gradient, dx), dot(base_gradient, dy))), 1e-6);
+  float inv = 1.0 / cap.stretch;
+  vec3 o = vec3(p.x * inv, p.y, p.z - cap.centre_z);
+  vec3 e = vec3(d.x * inv, d.y, d.z);
+  vec3 nearest = o - e * (dot(o, e) / dot(e, e));
+  float nearest_length = max(length(nearest), 1e-4);
+  vec2 cap_gradient = -vec2(nearest.x * inv, nearest.y) / nearest_length;
+  float cap_inside = (cap.radius - nearest_length) / max(length(vec2(dot(cap_gradient, dx), dot(cap_gradient, dy))), 1e-6);
+
+  bool from_dry = d.z > 0.0;
+  bool through_base = from_dry && q_length < 1.0;
+  bool cap_above = p.z + meet.x * d.z > 0.0;
+  float inside = from_dry ? base_inside : -1e6;
+  if (cap_above) inside = max(inside, cap_inside);
+  Seen seen;
+  seen.cover = clamp(inside + 0.5, 0.0, 1.0);
+  seen.light = vec3(0.0);
+  if (seen.cover <= 0.0) return seen;
+
+  float footprint = sqrt(abs(dx.x * dy.y - dx.y * dy.x) * max(abs(d.z), 0.05));
+  bool on_cap = !through_base && cap_above && meet.z > 0.0;
+  vec3 normal;
+  if (on_cap) {
+    p += d * meet.x;
+    normal = capNormal(cap, p);
+  } else {  // the edge's pixels look just inside
+    p.xy = vec2(q.x * cap.stretch, q.y) * min(1.0, 0.98 / q_length);
+    normal = vec3(0.0, 0.0, -1.0);
+    if (!from_dry) normal = capNormal(cap, vec3(p.xy, 0.02));
+  }
+  float cosine = max(-dot(d, normal), 0.02);
+  float reflected = fresnel(cosine, kWaterIndex);
+  float curvature = on_cap ? 1.0 / cap.radius : 0.0;
+  if (reflected > 0.004) seen.light = reflected * arriving(reflect(d, normal), 2.0 * curvature * footprint * cosine);
+  vec3 inner = refract(d, normal, 1.0 / kWaterIndex);
+  if (on_cap || from_dry) p.z = max(p.z, 0.0);
+  float inner_cosine = -dot(inner, normal);
+  float spread = curvature * footprint * (cosine / kWaterIndex - inner_cosine);
+  seen.light += (1.0 - reflected) * traceInside(cap, p, inner, footprint, spread);
+  return seen;
+}
+
+void main() {
+  Cap cap = Cap(i.cap.x, i.cap.y, i.cap.z);
+  vec3 d = normalize(i.from_eye);
+  vec2 dx = dFdx(i.base);
+  vec2 dy = dFdy(i.base);
+  float count = float(i.samples);
+  vec3 light = vec3(0.0);
+  float cover = 0.0;
+  for (int a = 0; a < i.samples * i.samples; ++a) {
+    vec2 offset = (vec2(a % i.samples, a / i.samples) + 0.5) / count - 0.5;
+    vec2 base = straighten(i.base + dx * offset.x + dy * offset.y);
+    Seen seen = look(cap, base, d, dx / count, dy / count);
+    light += seen.light * seen.cover;
+    cover += seen.cover;
+  }
+  if (cover <= 0.0) discard;
+  float alpha = cover / (count * count) * i.outline.w;
+  color = vec4(encode(frame.brightness * light / cover) * alpha, alpha);
+}

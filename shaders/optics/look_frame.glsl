@@ -1,0 +1,30 @@
+// What the look's shaders know of view, target, light and the pane being drawn. Filled by plugin/src/glass/look_gl.cpp (struct FrameBlock).
+#ifndef RG_OPTICS_LOOK_FRAME_GLSL
+#define RG_OPTICS_LOOK_FRAME_GLSL
+
+layout(std140, binding = 0) uniform Frame {
+  mat4 clip_from_eye;
+  mat4 eye_from_vehicle;    // of the pane being drawn
+  mat4 eye_from_world;      // rotation alone
+  mat4 world_from_vehicle;  // rotation alone
+  vec4 eye_in_vehicle;      // xyz, m
+  vec4 sky_radiance;
+  vec4 ground_radiance;
+  vec4 viewport;            // px: x, y, width, height
+  vec2 uv_per_m;            // pane's uv for a grid metre
+  float drop_age_s;
+  float outward;            // +1 where cross(along u, along v) points out of the glass, else -1
+  float exposure;
+  float pixels_per_rad;     // at the picture's middle
+  float environment_texels_per_rad;
+  float cabin_share;
+  float brightness;
+  float blur;
+  float fine_radius_px;     // drops smaller than this are sampled four times a pixel
+  uint has_environment;
+  uint srgb;                // the target and `picture` are encoded
+  uint internal_reflections;
+  uint dry_reflection;
+  float film_unit_m3;
+} frame;
+#endif
