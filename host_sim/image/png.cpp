@@ -24,8 +24,10 @@ png_image describe(int width_px, int height_px) {
 
 }  // namespace
 
-void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgb, int width_px, int height_px) {
-  if (width_px <= 0 || height_px <= 0 || rgb.size() != 3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {
+void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgb, int width_px,
+              int height_px) {
+  if (width_px <= 0 || height_px <= 0 ||
+      rgb.size() != 3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {
     fail(file, "a picture's size does not fit its pixels");
   }
   // Written beside and renamed, so that a full disk leaves no half picture under the name.
@@ -45,7 +47,8 @@ void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> r
 
 Picture8 readPng(const std::filesystem::path& file) {
   png_image image = describe(0, 0);
-  if (!png_image_begin_read_from_file(&image, file.c_str())) fail(file, std::string("cannot be read: ") + image.message);
+  if (!png_image_begin_read_from_file(&image, file.c_str()))
+    fail(file, std::string("cannot be read: ") + image.message);
   image.format = PNG_FORMAT_RGB;
   Picture8 picture;
   picture.width_px = static_cast<int>(image.width);

@@ -16,7 +16,8 @@ struct Picture8 {
 };
 
 /// Throws std::runtime_error that names the file when it cannot be written; nothing half-written stays.
-void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgb, int width_px, int height_px);
+void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> rgb, int width_px,
+              int height_px);
 /// Reads any PNG as RGB, alpha dropped. Throws std::runtime_error that names the file.
 Picture8 readPng(const std::filesystem::path& file);
 

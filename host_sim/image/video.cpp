@@ -38,15 +38,43 @@ class WithoutSigpipe {
   sigset_t pipe_{}, before_{};
 };
 
-std::vector<std::string> arguments(const std::string& program, const std::filesystem::path& file, int width_px, int height_px,
-                                   double frames_per_s) {
+std::vector<std::string> arguments(const std::string& program, const std::filesystem::path& file,
+                                   int width_px, int height_px, double frames_per_s) {
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.6g", frames_per_s);
   // An absolute path cannot be taken for an option or a protocol.
-  return {program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
-          std::to_string(width_px) + "x" + std::to_string(height_px), "-framerate", rate, "-i", "pipe:0", "-an", "-c:v", "libx264",
-          "-preset", "veryfast", "-crf", "20", "-vf", "scale=out_color_matrix=bt709", "-colorspace", "bt709", "-pix_fmt", "yuv420p",
-          "-movflags", "+faststart", std::filesystem::absolute(file).string()};
+  return {program,
+          "-hide_banner",
+          "-loglevel",
+          "error",
+          "-nostdin",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pixel_format",
+          "rgb24",
+          "-video_size",
+          std::to_string(width_px) + "x" + std::to_string(height_px),
+          "-framerate",
+          rate,
+          "-i",
+          "pipe:0",
+          "-an",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "veryfast",
+          "-crf",
+          "20",
+          "-vf",
+          "scale=out_color_matrix=bt709",
+          "-colorspace",
+          "bt709",
+          "-pix_fmt",
+          "yuv420p",
+          "-movflags",
+          "+faststart",
+          std::filesystem::absolute(file).string()};
 }
 
 /// A file that is unlinked at once: takes ffmpeg's messages without blocking it, whatever their length.
@@ -68,14 +96,16 @@ std::string lastWords(int file) {
 
 }  // namespace
 
-Video::Video(std::filesystem::path file, int width_px, int height_px, double frames_per_s, const std::string& program)
+Video::Video(std::filesystem::path file, int width_px, int height_px, double frames_per_s,
+             const std::string& program)
     : file_(std::move(file)) {
   if (width_px <= 0 || height_px <= 0 || width_px % 2 != 0 || height_px % 2 != 0) {
     throw std::runtime_error(file_.string() + ": a video's width and height must be even");
   }
   frame_bytes_ = 3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(file_.string() + ": no pipe to ffmpeg: " + std::strerror(errno));
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    throw std::runtime_error(file_.string() + ": no pipe to ffmpeg: " + std::strerror(errno));
   errors_ = messageFile();
 
   std::vector<std::string> words = arguments(program, file_, width_px, height_px, frames_per_s);
@@ -94,7 +124,8 @@ Video::Video(std::filesystem::path file, int width_px, int height_px, double fra
   if (failed == 0) return;
   close(pipe_);
   if (errors_ >= 0) close(errors_);
-  const std::string why = failed == ENOENT ? "is not installed" : std::string("cannot be started: ") + std::strerror(failed);
+  const std::string why =
+      failed == ENOENT ? "is not installed" : std::string("cannot be started: ") + std::strerror(failed);
   throw std::runtime_error(file_.string() + ": the program " + program + " that makes videos " + why);
 }
 
@@ -104,7 +135,8 @@ Video::~Video() {
 }
 
 void Video::add(std::span<const std::uint8_t> rgb) {
-  if (rgb.size() != frame_bytes_) throw std::runtime_error(file_.string() + ": a picture of another size than the video's");
+  if (rgb.size() != frame_bytes_)
+    throw std::runtime_error(file_.string() + ": a picture of another size than the video's");
   const WithoutSigpipe quiet;
   while (!rgb.empty()) {
     const ssize_t written = write(pipe_, rgb.data(), rgb.size());

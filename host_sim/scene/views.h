@@ -115,8 +115,9 @@ CarView carView(const Scene& scene);
 /// All in the world frame.
 RoadView roadView(const Scene& scene);
 
-/// The angle (radians) a wiper's node is to be turned about its local +Y at a wiper angle: the same, in the
-/// file's axes. Sets that node's rotation in `poses`.
+/// Turns a node by an angle about an axis of its own, from where it rests, by setting its rotation in
+/// `poses`: a wiper's about +Y, a wheel's about +X, a steering wheel's about +Y. (Does nothing visible to a
+/// node with a matrix.)
 void turnNode(const Scene& scene, int node, glm::vec3 local_axis, float angle_rad, std::vector<Pose>& poses);
 
 }  // namespace host
