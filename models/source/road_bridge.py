@@ -8,6 +8,8 @@ from road_mesh import Mesh, local, place, shelter
 ABUTMENT_D = 10.2
 DECK_TOP = 6.6
 _HALF = route.BRIDGE_HALF_WIDTH
+# The crossing road's bank: half its top's width, and how steeply its sides fall.
+_BANK_HALF, _BANK_SLOPE = 5.5, 10.0 / 16.0
 
 
 def _frame():
@@ -39,19 +41,18 @@ def _abutments(mesh, frame):
         low, high = sorted((side * ABUTMENT_D, side * (ABUTMENT_D + 1.0)))
         mesh.box(frame, (-_HALF - 0.4, low, -1.0), (_HALF + 0.4, high, route.BRIDGE_CLEARANCE + 0.5), "concrete", 4.0, skip="z")
         for end in (-1, 1):
-            _wing(mesh, frame, side, end * (_HALF + 0.4))
+            _wing(mesh, frame, side, end)
 
 
-def _wing(mesh, frame, side, x):
-    """A wall that holds the embankment back, falling with its slope."""
-    d, far = side * ABUTMENT_D, side * (ABUTMENT_D + 1.0)
-    spread = np.sign(x) * 8.5
-    for dd, flip in ((d, False), (far, True)):
-        corners = [(x, dd, -1.0), (x + spread, dd + side * 4.0, -1.0), (x + spread, dd + side * 4.0, 0.9), (x, dd, DECK_TOP - 0.3)]
-        if (np.sign(x) * side > 0) != flip:
-            corners = [corners[i] for i in (1, 0, 3, 2)]
-        u0 = 0.0
-        mesh.quad(local(frame, corners), "concrete", (u0, 0, 2.2, 1.6))
+def _wing(mesh, frame, side, end):
+    """A wall beside the abutment that holds the embankment back; its top falls with the bank's slope."""
+    x0, x1, d = end * (_HALF + 0.4), end * 16.2, side * ABUTMENT_D
+    top = DECK_TOP - (_HALF + 0.4 - _BANK_HALF) * _BANK_SLOPE + 0.25
+    front = np.array([(x0, d, -1.0), (x1, d, -1.0), (x1, d, 0.25), (x0, d, top)])
+    cap = np.array([(x0, d, top), (x1, d, 0.25), (x1, d + side * 0.45, 0.25), (x0, d + side * 0.45, top)])
+    order = [0, 1, 2, 3] if end * side > 0 else [3, 2, 1, 0]
+    mesh.add(local(frame, front), [order], "concrete", front[:, [0, 2]] / 4.0)
+    mesh.add(local(frame, cap), [order], "concrete", cap[:, [0, 1]] / 4.0)
 
 
 def _crossing_height(frame, d):
@@ -65,10 +66,10 @@ def _crossing_height(frame, d):
 
 def _embankment(mesh, frame, side):
     """The crossing road on its bank, out to the fields."""
-    d = side * np.concatenate([[ABUTMENT_D + 0.1, 14, 18], np.arange(24, 260, 14.0)])
+    d = side * np.concatenate([[ABUTMENT_D + 0.05, 14, 18], np.arange(24, 260, 14.0)])
     top = np.array([_crossing_height(frame, v) for v in d])
-    half = 4.6
-    profile = [(-half - 0.9 - 16, -1), (-half - 0.9, 0), (-half, 0), (half, 0), (half + 0.9, 0), (half + 0.9 + 16, -1)]
+    half, foot = 4.6, _BANK_HALF + 10.0 / _BANK_SLOPE
+    profile = [(-foot, -1), (-_BANK_HALF, 0), (-half, 0), (half, 0), (_BANK_HALF, 0), (foot, -1)]
     grid = np.zeros((len(d), 6, 3))
     for j, (x, out) in enumerate(profile):
         grid[:, j, 0], grid[:, j, 1] = x, d

@@ -41,6 +41,21 @@ def _markings(chunks):
                 _ribbon(chunks, first, first + 20, d - 0.06, d + 0.06, "paint", (1.0, 1.0), 0.008)
 
 
+def _shoulders(chunks):
+    """Gravel between asphalt and grass, where there is no pavement, tunnel or forecourt."""
+    for first in np.arange(route.S_FIRST, route.S_LAST, 20.0):
+        for side in (-1, 1):
+            built = (route.VILLAGE_IN - 15 < first < route.VILLAGE_OUT or route.TUNNEL_IN - 10 < first < route.TUNNEL_OUT
+                     or side < 0 and route.FORECOURT_IN - 15 < first < route.FORECOURT_OUT + 5)
+            if built:
+                continue
+            s = np.linspace(first, first + 20, 5)
+            d = side * np.array([EDGE_M - 0.05, EDGE_M + 0.65 + 0.0])
+            grid = route.point(s[:, None], d[None], np.array([-0.005, -0.03])[None])
+            uv = np.stack(np.broadcast_arrays(d[None] / 2.5, s[:, None] / 2.5), axis=-1)
+            chunks.at(first).grid(grid, "gravel", uv, side < 0)
+
+
 def _rail(chunks, first, last, d):
     """A guard rail that bends down into the ground at both ends."""
     s = np.linspace(first, last, int((last - first) / 4) + 1)
@@ -148,6 +163,7 @@ def _wires(chunks, first, last, d, spacing=42.0):
 def build(ground, furniture):
     _surface(ground)
     _markings(ground)
+    _shoulders(ground)
     for first, last, d in RAILS:
         _rail(furniture, first, last, d)
     _marker_posts(furniture)

@@ -36,35 +36,41 @@ def _spread_colour(canvas, rounds=24):
     return canvas
 
 
-def _cluster(colour, leaves, length, seed, spread=0.40):
-    """Leaves of a branch end: dark ones behind, light ones in front and above."""
+def _cluster(colour, twigs, length, seed, reach=0.47):
+    """A branch end: twigs from the middle outwards with leaves on both sides; dark ones behind, light ones in front."""
     rng = np.random.default_rng(seed)
     canvas = np.zeros((256, 256, 4))
-    for k in range(leaves):
-        r, a = spread * 256 * np.sqrt(rng.random()), rng.random() * 2 * np.pi
-        front = k / leaves
-        light = (0.50 + 0.55 * front) * (0.85 + 0.3 * rng.random()) * (1.0 - 0.15 * np.sin(a) * r / 128)
-        hue = np.array([1 + 0.22 * (rng.random() - 0.4), 1.0, 1 - 0.3 * (rng.random() - 0.5)])
-        size = length * (0.7 + 0.6 * rng.random())
-        _splat(canvas, 128 + r * np.cos(a), 128 + r * np.sin(a), size, 0.55 * size, a + rng.normal(0, 0.8), np.array(colour) * light * hue)
+    for k in range(twigs):
+        front = k / twigs
+        a = k * 2.39996 + rng.normal(0, 0.25)
+        long, bend = 256 * reach * rng.uniform(0.55, 1.0) * (1.0 - 0.45 * front), rng.normal(0, 0.35)
+        for t in np.arange(0.0, 1.0, 0.42 * length / long):
+            angle = a + bend * t
+            for side in (-0.9, 0.9):
+                out = angle + side + rng.normal(0, 0.35)
+                size = length * rng.uniform(0.7, 1.25)
+                light = (0.52 + 0.5 * front) * rng.uniform(0.82, 1.15) * (1.0 - 0.12 * np.sin(angle) * t)
+                hue = np.array([1 + 0.2 * (rng.random() - 0.4), 1.0, 1 - 0.25 * (rng.random() - 0.5)])
+                _splat(canvas, 128 + t * long * np.cos(angle) + 0.4 * size * np.cos(out), 128 + t * long * np.sin(angle) + 0.4 * size * np.sin(out),
+                       size, 0.56 * size, out, np.array(colour) * light * hue)
     return _spread_colour(canvas)
 
 
 def _spruce(colour, seed):
-    """A drooping fan of twigs with needles, seen from the side; its stem at the left edge's middle."""
+    """A bough like a fern: side twigs, dense with needles, shorter towards the tip; its foot at the left edge's middle."""
     rng = np.random.default_rng(seed)
     canvas = np.zeros((256, 256, 4))
-    for k in range(46):
-        t = rng.random()
-        x, y = 12 + 215 * t, 100 + 50 * t * t + rng.normal(0, 6)
-        reach = (1 - 0.72 * t) * (70 + 40 * rng.random())
-        lean = rng.uniform(-0.25, 0.9) * (1 if k % 2 else -0.35)
-        light = 0.55 + 0.55 * k / 46
-        for step in np.linspace(0, 1, 14):
-            px, py = x + 0.5 * reach * step, y + reach * step * lean * 0.9 + 10 * step * step
-            for side in (-1, 1):
-                _splat(canvas, px, py, 15, 3.6, np.arctan2(lean, 0.6) + side * 0.7 + rng.normal(0, 0.15),
-                       np.array(colour) * light * (0.85 + 0.3 * rng.random()))
+    for k in range(64):
+        t = 0.98 * (1 - k / 64)
+        side = 1 if k % 2 else -1
+        long = (1 - 0.8 * t) * 105 * rng.uniform(0.75, 1.1) * min(1.0, 0.35 + 4 * t)
+        lean = side * rng.uniform(0.75, 1.15)
+        light = rng.uniform(0.6, 1.1)
+        for step in np.arange(0, 1, 5.0 / max(long, 6)):
+            x, y = 6 + 226 * t + step * long * np.cos(lean), 128 + step * long * np.sin(lean)
+            for needle in (-0.75, 0.75):
+                shade = light * rng.uniform(0.8, 1.15) * (0.8 + 0.3 * step)
+                _splat(canvas, x, y, 20, 5.0, lean + needle, np.array(colour) * shade)
     return _spread_colour(canvas)
 
 
@@ -75,20 +81,20 @@ def _blades(colour, count, seed, width):
     for k in range(count):
         x, top, bend = 16 + 224 * rng.random(), 60 + 180 * rng.random() ** 0.7, rng.normal(0, 45)
         light = (0.6 + 0.5 * k / count) * (0.85 + 0.3 * rng.random())
-        for t in np.linspace(0, 1, 26):
+        for t in np.linspace(0, 1, 90):
             half = width * (1 - 0.85 * t)
             row, at = int(255 - top * t), x + bend * t * t
             left, right = int(np.clip(at - half, 0, 255)), int(np.clip(at + half + 1, 1, 256))
-            canvas[max(row - 8, 0):row + 1, left:right, :3] = np.array(colour) * light * (0.65 + 0.4 * t)
-            canvas[max(row - 8, 0):row + 1, left:right, 3] = 1
+            canvas[max(row - 2, 0):row + 1, left:right, :3] = np.array(colour) * light * (0.65 + 0.4 * t)
+            canvas[max(row - 2, 0):row + 1, left:right, 3] = 1
     return _spread_colour(canvas)
 
 
 def leaves():
-    tiles = {"broad": _cluster((0.33, 0.43, 0.17), 210, 34, 1), "broad_dark": _cluster((0.19, 0.26, 0.11), 210, 34, 2),
-             "birch": _cluster((0.42, 0.47, 0.19), 170, 24, 3), "bush": _cluster((0.29, 0.37, 0.17), 300, 26, 4, 0.42),
-             "spruce": _spruce((0.21, 0.30, 0.20), 5), "spruce_dark": _spruce((0.14, 0.205, 0.145), 6),
-             "grass": _blades((0.36, 0.43, 0.19), 90, 7, 3.2), "reed": _blades((0.50, 0.47, 0.28), 60, 8, 2.6)}
+    tiles = {"broad": _cluster((0.35, 0.42, 0.19), 34, 24, 1), "broad_dark": _cluster((0.20, 0.255, 0.125), 34, 24, 2),
+             "birch": _cluster((0.43, 0.46, 0.21), 30, 18, 3), "bush": _cluster((0.31, 0.37, 0.19), 60, 20, 4, 0.48),
+             "spruce": _spruce((0.215, 0.285, 0.20), 5), "spruce_dark": _spruce((0.145, 0.20, 0.15), 6),
+             "grass": _blades((0.40, 0.455, 0.235), 120, 7, 2.6), "reed": _blades((0.52, 0.485, 0.31), 80, 8, 2.2)}
     out = np.zeros((512, 1024, 4))
     for name, index in LEAF_TILE.items():
         row, column = index // 4 * 256, index % 4 * 256
@@ -100,34 +106,32 @@ def forest():
     """A forest's edge, 4 units wide and 1 high, tiling sideways: crowns from the back forward, dark at the foot."""
     rng = np.random.default_rng(9)
     h, w = 256, 1024
-    canvas = np.zeros((h, w + 200, 4))
-    for layer in range(3):
-        for x in np.arange(0, w, 30):
-            _forest_tree(canvas, rng, x + rng.uniform(-12, 12) + 100, layer)
-    out = canvas[:, 100:w + 100]
-    for side in (slice(0, 100), slice(w + 100, w + 200)):
-        wrapped = canvas[:, side]
-        target = out[:, -100:] if side.start == 0 else out[:, :100]
-        fill = (wrapped[..., 3] > 0) & (target[..., 3] == 0)
-        target[fill] = wrapped[fill]
-    out[h - 60:, :, :3] *= np.linspace(1, 0.45, 60)[:, None, None]
-    bare = out[h - 70:, :, 3] == 0
-    out[h - 70:][bare] = (0.11, 0.125, 0.085, 1.0)
-    return np.clip(_spread_colour(out), 0, 1)
+    canvas = np.zeros((h, w, 4))
+    for layer in range(4):
+        for x in np.arange(0, w, 40 + 8 * layer):
+            _forest_tree(canvas, rng, x + rng.uniform(-16, 16), layer)
+    canvas[h - 70:, :, :3] *= np.linspace(1, 0.62, 70)[:, None, None]
+    bare = canvas[h - 90:, :, 3] == 0
+    canvas[h - 90:][bare] = (0.13, 0.145, 0.10, 1.0)
+    return np.clip(_spread_colour(canvas), 0, 1)
 
 
 def _forest_tree(canvas, rng, x, layer):
-    h = canvas.shape[0]
-    spruce = rng.random() < 0.35
-    top = rng.uniform(8, 60) + 34 * layer
-    colour = np.array([(0.17, 0.24, 0.165), (0.31, 0.39, 0.175), (0.26, 0.35, 0.15), (0.38, 0.40, 0.18)][0 if spruce else rng.integers(1, 4)])
-    colour *= 0.72 + 0.14 * layer
-    half = rng.uniform(14, 18) if spruce else rng.uniform(24, 36)
-    for _ in range(150):
-        t = rng.random() ** 0.8
-        y = top + (h - top) * t * 0.85
-        reach = half * (t ** 0.8 if spruce else np.sqrt(max(1 - (1 - min(t * 2.2, 1)) ** 2, 0.02)))
-        u = rng.uniform(-1, 1)
-        light = (1.15 - 0.55 * t) * (0.8 + 0.4 * rng.random()) * (1 - 0.18 * u)
-        size = 8 if spruce else 9
-        _splat(canvas, x + u * reach, y, size * rng.uniform(0.8, 1.5), size * 0.6, rng.uniform(0, 3.1), colour * light)
+    """One tree: tufts over its outline, each lit from above; drawn again one width on where it crosses the edge."""
+    h, w = canvas.shape[:2]
+    spruce = rng.random() < 0.3
+    top = rng.uniform(10, 46) + 30 * layer
+    tones = ((0.20, 0.27, 0.195), (0.33, 0.395, 0.20), (0.285, 0.355, 0.18), (0.375, 0.40, 0.205))
+    colour = np.array(tones[0 if spruce else rng.integers(1, 4)]) * (0.80 + 0.09 * layer)
+    half = rng.uniform(15, 20) if spruce else rng.uniform(26, 40)
+    for k in range(42):
+        t = k / 42
+        reach = half * (0.12 + 0.88 * t) if spruce else half * np.sqrt(np.clip(1 - (1 - 2.0 * t) ** 2, 0.05, 1)) if t < 0.5 else half
+        cx, cy = x + rng.uniform(-1, 1) * reach, top + (h - top) * 0.8 * t + rng.normal(0, 4)
+        tone = rng.uniform(0.78, 1.12) * (1.1 - 0.4 * t)
+        for _ in range(16):
+            a, r = rng.random() * 6.283, rng.random() ** 0.5 * (9 if spruce else 12)
+            dx, dy = r * np.cos(a), r * np.sin(a) * 0.8
+            light = tone * (1.0 - 0.028 * dy) * rng.uniform(0.85, 1.15)
+            for shift in (0, w if cx < 60 else -w if cx > w - 60 else 0):
+                _splat(canvas, cx + dx + shift, cy + dy, 7.0, 4.4, a + 1.5, colour * light)

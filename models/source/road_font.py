@@ -2,7 +2,7 @@
 import numpy as np
 
 _GLYPHS = {
-    "0": "01110 10001 10011 10101 11001 10001 01110", "1": "00100 01100 00100 00100 00100 00100 01110",
+    "0": "01110 10001 10001 10001 10001 10001 01110", "1": "00100 01100 00100 00100 00100 00100 01110",
     "2": "01110 10001 00001 00110 01000 10000 11111", "3": "01110 10001 00001 00110 00001 10001 01110",
     "4": "00010 00110 01010 10010 11111 00010 00010", "5": "11111 10000 11110 00001 00001 10001 01110",
     "6": "01110 10000 10000 11110 10001 10001 01110", "7": "11111 00001 00010 00100 01000 01000 01000",
@@ -15,13 +15,22 @@ _GLYPHS = {
 }
 
 
+def _smooth_glyph(glyph, rows, columns):
+    """A glyph enlarged with round corners: its dots blended, then cut at half."""
+    dots = np.pad([[float(c == "1") for c in row] for row in _GLYPHS[glyph].split()], 1)
+    y, x = np.linspace(0.5, 7.5, rows), np.linspace(0.5, 5.5, columns)
+    weight = lambda at, count: np.exp(-(((at[:, None] - np.arange(count)[None]) / 0.52) ** 2))
+    wy, wx = weight(y, 9), weight(x, 7)
+    blended = (wy / wy.sum(1, keepdims=True)) @ dots @ (wx / wx.sum(1, keepdims=True)).T
+    return np.clip((blended - 0.42) * 8 + 0.5, 0, 1)
+
+
 def stamp_text(tile, text, x, y, width, colour, tall=1.3):
     """Writes text into a square tile from (x, y), fractions with y downwards; width of a letter cell, height = width * tall."""
     n = len(tile)
     for letter, glyph in enumerate(text):
-        dots = np.array([[c == "1" for c in row] for row in _GLYPHS[glyph].split()])
-        h, w = int(width * tall * n), int(width * 0.84 * n)
-        rows, columns = np.arange(h) * 7 // h, np.arange(w) * 5 // w
+        cover = _smooth_glyph(glyph, int(width * tall * n), int(width * 0.84 * n))[..., None]
         top, left = int(y * n), int((x + letter * width) * n)
-        area = tile[top:top + h, left:left + w]
-        area[dots[rows][:, columns][:area.shape[0], :area.shape[1]]] = colour
+        area = tile[top:top + cover.shape[0], left:left + cover.shape[1]]
+        cover = cover[:area.shape[0], :area.shape[1]]
+        area[:] = area * (1 - cover) + np.asarray(colour) * cover

@@ -40,7 +40,7 @@ def _setup(path):
     scene.render.threads_mode, scene.render.threads = "FIXED", 2
     _sky(scene)
     for light in bpy.data.lights:
-        light.energy *= 12  # by day the lamps of a street would not show
+        light.energy *= 8  # by day the lamps of a street would not show
     for thing in scene.objects:
         kind = thing.get("rainglass", {}).get("type") if thing.get("rainglass") else None
         if kind == "shelter":

@@ -19,7 +19,7 @@ PLAIN = {
     "soil": ("soil", (1, 1, 1), 0.95, 0), "gravel": ("gravel", (1, 1, 1), 0.95, 0), "paving": ("paving", (1, 1, 1), 0.85, 0),
     "far_woods": ("far_woods", (1, 1, 1), 1.0, 0), "paint": ("paint", (1, 1, 1), 0.6, 0),
     "concrete": ("concrete", (1, 1, 1), 0.85, 0), "concrete_dark": ("concrete", (0.42, 0.42, 0.43), 0.9, 0),
-    "kerb": ("concrete", (0.95, 0.95, 0.95), 0.85, 0), "tiles": ("tiles", (1, 1, 1), 0.45, 0),
+    "concrete_vault": ("concrete", (0.62, 0.61, 0.58), 0.9, 0), "kerb": ("concrete", (0.95, 0.95, 0.95), 0.85, 0), "tiles": ("tiles", (1, 1, 1), 0.45, 0),
     "plaster_white": ("plaster", (0.86, 0.85, 0.80), 0.9, 0), "plaster_ochre": ("plaster", (0.78, 0.62, 0.38), 0.9, 0),
     "plaster_grey": ("plaster", (0.60, 0.62, 0.62), 0.9, 0), "plaster_rose": ("plaster", (0.74, 0.52, 0.42), 0.9, 0),
     "brick": ("brick", (1, 1, 1), 0.9, 0), "roof_red": ("roof", (1, 1, 1), 0.8, 0), "roof_slate": ("roof", (0.42, 0.52, 0.62), 0.7, 0),
@@ -29,7 +29,8 @@ PLAIN = {
     "car_blue": (None, (0.03, 0.07, 0.16), 0.25, 0.3), "car_red": (None, (0.22, 0.02, 0.02), 0.25, 0.2),
     "car_silver": (None, (0.40, 0.41, 0.42), 0.3, 0.6), "car_glass": (None, (0.02, 0.025, 0.03), 0.08, 0), "tyre": (None, (0.02, 0.02, 0.02), 0.9, 0),
 }
-MASKED = {"leaves": "leaves", "forest": "forest"}
+# name: texture, both sides drawn. One-sided ones come with both windings where both are seen: each side keeps its normals.
+MASKED = {"leaves": ("leaves", True), "leaves_upright": ("leaves", False), "forest": ("forest", False)}
 GLOWING = {"lamp_warm": (1.0, 0.80, 0.52), "lamp_white": (1.0, 0.97, 0.90), "exit_green": (0.05, 0.8, 0.25), "tail_red": (0.4, 0.01, 0.01)}
 ALPHA = {"leaves": road_foliage.leaves, "forest": road_foliage.forest}
 
@@ -127,11 +128,11 @@ def _asphalt(name):
 
 def _masked(name):
     material, shader, links = _start(name, 0.9, 0)
-    texture = _texture(material, MASKED[name])
+    texture = _texture(material, MASKED[name][0])
     links.new(texture.outputs["Color"], shader.inputs["Base Color"])
     links.new(texture.outputs["Alpha"], shader.inputs["Alpha"])
     material.blend_method, material.alpha_threshold = "CLIP", 0.4
-    material.use_backface_culling = False
+    material.use_backface_culling = not MASKED[name][1]
     return material
 
 

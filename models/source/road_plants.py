@@ -55,12 +55,13 @@ def _trunk(mesh, rng, height, radius, material, branches, reach):
 def _broadleaf(seed, height, wide, cards, tile="broad", dark="broad_dark"):
     mesh, rng = Mesh(), np.random.default_rng(seed)
     _trunk(mesh, rng, height * 0.72, height * 0.026, "bark", 5, wide * 0.5)
-    parts = 4
+    parts = 8
     for k in range(parts):
-        a = k * 2 * np.pi / (parts - 1) + rng.normal(0, 0.3)
-        off = np.array([np.cos(a), np.sin(a), 0]) * wide * (0.42 if k < parts - 1 else 0.0)
-        level = height * (0.55 + 0.06 * rng.normal()) if k < parts - 1 else height * 0.76
-        _crown(mesh, rng, off + [0, 0, level], (wide * 0.62, wide * 0.62, height * 0.23), cards // parts, wide * 0.30, tile, dark)
+        t = k / (parts - 1)
+        a = k * 2.39996 + rng.normal(0, 0.3)
+        off = np.array([np.cos(a), np.sin(a), 0]) * wide * 0.58 * np.sqrt(1 - t) * rng.uniform(0.75, 1.15)
+        level, size = height * (0.42 + 0.42 * t + 0.03 * rng.normal()), wide * rng.uniform(0.40, 0.56) * (1 - 0.25 * t)
+        _crown(mesh, rng, off + [0, 0, level], (size, size, 0.8 * size), cards // parts, 0.62 * size, tile, dark)
     return mesh.data(f"tree_{seed}")
 
 
@@ -68,28 +69,40 @@ def _birch(seed):
     mesh, rng = Mesh(), np.random.default_rng(seed)
     _trunk(mesh, rng, 10.5, 0.13, "bark_birch", 4, 1.0)
     for level, wide in ((4.6, 1.5), (6.6, 1.9), (8.6, 1.6), (10.4, 1.0)):
-        _crown(mesh, rng, (rng.normal(0, 0.2), rng.normal(0, 0.2), level), (wide, wide, 1.5), 17, 0.85, "birch", "broad")
+        _crown(mesh, rng, (rng.normal(0, 0.2), rng.normal(0, 0.2), level), (wide, wide, 1.5), 20, 0.85, "birch", "broad")
     return mesh.data(f"birch_{seed}")
 
 
 def _spruce(seed, height):
+    """Whorls of drooping boughs around a dark core, so that no sky shows through the middle."""
     mesh, rng = Mesh(), np.random.default_rng(seed)
-    mesh.tube([(0, 0, -0.4), (0, 0, height * 0.5), (0, 0, height)], [0.2, 0.13, 0.03], 5, "bark", 1.5)
-    tiers = 11
+    mesh.tube([(0, 0, -0.4), (0, 0, 0.25 * height)], [0.2, 0.15], 5, "bark", 1.5)
+    _spruce_core(mesh, height)
+    tiers = 13
     for tier in range(tiers):
         t = tier / (tiers - 1)
-        reach, level = (0.23 * (1 - t) + 0.035) * height, height * (0.10 + 0.84 * t)
-        for k in range(8 if t < 0.6 else 6):
-            a = k * 2 * np.pi / (8 if t < 0.6 else 6) + tier * 0.7 + rng.normal(0, 0.15)
+        reach, level = (0.22 * (1 - t) ** 0.9 + 0.045) * height * rng.uniform(0.9, 1.1), height * (0.11 + 0.83 * t)
+        count = 7 if t < 0.75 else 5
+        for k in range(count):
+            a = k * 2 * np.pi / count + tier * 0.9 + rng.normal(0, 0.15)
             out, across = np.array([np.cos(a), np.sin(a), 0]), np.array([-np.sin(a), np.cos(a), 0])
-            along = (out * 0.95 + [0, 0, -0.32 + 0.35 * t]) * reach / 2 * rng.uniform(0.9, 1.12)
-            side = (across * (0.75 if k % 2 else -0.75) + np.array([0, 0, 0.62])) * reach * 0.34
+            along = (out * 0.92 + [0, 0, -0.42 + 0.25 * t]) * reach / 2 * rng.uniform(0.85, 1.15)
+            side = across * reach * (0.34 if k % 2 else -0.34) + np.array([0, 0, max(0.30 * reach, 0.045 * height)])
             _card(mesh, np.array([0, 0, level]) + along, along, side, "spruce_dark" if (k + tier) % 3 == 0 else "spruce",
                   np.array([0, 0, level - 0.35 * height * (1 - t) - 0.4]))
-    top = height * 0.95
     for a in (0.3, 1.9):
-        _card(mesh, (0, 0, top), (0.5 * np.cos(a), 0.5 * np.sin(a), 0.0), (0, 0, 0.9), "spruce", np.array([0, 0, top - 2]))
+        across = np.array([np.cos(a), np.sin(a), 0.0])
+        _card(mesh, (0, 0, 0.955 * height), (0, 0, 0.075 * height), across * 0.045 * height, "spruce", np.array([0, 0, 0.6 * height]))
     return mesh.data(f"spruce_{seed}")
+
+
+def _spruce_core(mesh, height):
+    a = np.linspace(0, 2 * np.pi, 8)
+    z, r = np.array([0.07, 0.10, 0.5, 0.97]) * height, np.array([0.03, 0.105, 0.062, 0.004]) * height
+    grid = np.stack([np.cos(a)[None] * r[:, None], np.sin(a)[None] * r[:, None], np.broadcast_to(z[:, None], (4, 8))], axis=-1)
+    u0, v0, u1, v1 = leaf_uv("spruce_dark", 0.36)
+    uv = np.stack(np.broadcast_arrays(np.linspace(u0, u1, 8)[None], np.linspace(v0, v1, 4)[:, None]), axis=-1)
+    mesh.grid(grid, "leaves", uv, True)
 
 
 def _bush(seed, wide, tall):
@@ -123,7 +136,8 @@ STANDS = [(-190, 95, 1, 16, 46, 20, "ooqb"), (-190, 95, -1, 10, 44, 24, "oqqbs")
           (366, 540, -1, 8.8, 11, 8, "uu"), (470, 545, 1, 22, 55, 16, "ssoq"), (470, 545, -1, 22, 55, 16, "ssob"),
           (552, 728, 1, 3, 55, 24, "ssoq"), (552, 728, -1, 3, 55, 24, "ssoq"), (736, 800, 1, 24, 55, 12, "ssq"), (736, 800, -1, 24, 55, 12, "sso"),
           (790, 960, 1, 12, 45, 22, "osqb"), (790, 975, -1, 12, 48, 24, "sqob"), (800, 960, 1, 8.8, 12, 6, "uu"),
-          (985, 1150, 1, 12, 40, 14, "oqbu"), (1000, 1130, -1, 47, 60, 18, "osqb"), (1150, 1220, -1, 11, 40, 10, "oqb"),
+          (985, 1150, 1, 12, 40, 14, "oqbu"), (1000, 1130, -1, 47, 60, 18, "osqb"), (1096, 1146, -1, 10, 44, 34, "uuqbu"),
+          (968, 1000, -1, 12, 44, 16, "uuqb"), (1150, 1220, -1, 11, 40, 10, "oqb"),
           (1160, 1400, 1, 12, 50, 16, "oqb"), (1250, 1450, -1, 16, 55, 14, "oqbs"), (1420, 1600, 1, 10, 45, 18, "sosq"),
           (1480, 1700, -1, 17, 55, 12, "oqb"), (1620, 1950, 1, 10, 55, 24, "ossqb"), (1720, 1950, -1, 16, 55, 18, "ossq")]
 # Rows of trees at even spacing (an avenue): first s, last s, d, spacing, kind.
@@ -137,13 +151,13 @@ def _is_free(s, d, wide):
         return False
     if abs(s - route.BRIDGE_S) < 13 + wide and abs(d) < 190:
         return False
-    if route.FORECOURT_IN - 12 < s < route.FORECOURT_OUT + 12 and -45 < d < 0:
+    if route.FORECOURT_IN - 12 < s < route.FORECOURT_OUT + 12 and route.forecourt_edge(s) - 1.2 - 0.5 * wide < d < 0:
         return False
     return all(max(abs(s - hs), abs(d - hd)) > 7.5 + 0.4 * wide for hs, hd, *_ in PLOTS)
 
 
 def _kinds():
-    return {"o": ([_broadleaf(1, 11.5, 4.3, 100), _broadleaf(2, 9.5, 3.9, 88)], 3.5), "q": ([_broadleaf(3, 7.5, 2.8, 72)], 2.5),
+    return {"o": ([_broadleaf(1, 12.0, 4.4, 144), _broadleaf(2, 10.0, 4.0, 128)], 3.5), "q": ([_broadleaf(3, 7.5, 2.8, 104), _broadleaf(13, 8.6, 2.9, 104)], 2.5),
             "b": ([_birch(4), _birch(5)], 2.0), "s": ([_spruce(6, 13.0), _spruce(7, 10.5)], 2.3), "u": ([_bush(8, 1.3, 1.7), _bush(9, 1.8, 2.2)], 1.2)}
 
 
@@ -188,6 +202,17 @@ def _hedges():
             place(f"hedge_{s:.0f}_{d:.0f}", data, (terrain.at(s, d), route.frame(s)[1]))
 
 
+def _both_sides(mesh, corners, material, uv, normal=None):
+    """An upright card seen from either side, lit alike: normals as given, or half up and half towards the viewer."""
+    corners = np.asarray(corners, float)
+    out = np.cross(corners[1] - corners[0], corners[3] - corners[0])
+    out /= np.linalg.norm(out)
+    for order, side in (((0, 1, 2, 3), 1), ((1, 0, 3, 2), -1)):
+        facing = np.asarray(normal) if normal is not None else side * out + [0, 0, 0.7]
+        u0, v0, u1, v1 = uv
+        mesh.quad(corners[list(order)], material, (u0, v0, u1, v1) if side > 0 else (u1, v0, u0, v1), np.tile(facing / np.linalg.norm(facing), (4, 1)))
+
+
 def _tufts(chunks):
     """Taller grass on verge and ditch: pairs of crossing cards, normals up so that they melt into the ground."""
     rng = np.random.default_rng(55)
@@ -204,18 +229,17 @@ def _tufts(chunks):
             up = np.array([0, 0, size * rng.uniform(0.7, 1.1)])
             corners = [foot - right - [0, 0, 0.05], foot + right - [0, 0, 0.05], foot + right + up, foot - right + up]
             tile = leaf_uv("reed" if rng.random() < 0.15 else "grass")
-            chunks.at(s).quad(corners, "leaves", tile, np.tile([0.0, 0.0, 1.0], (4, 1)))
+            _both_sides(chunks.at(s), corners, "leaves_upright", tile, [0.0, 0.0, 1.0])
 
 
-def _forest_card(chunks, s0, s1, d0, d1, tall, rng):
-    """An upright picture of a forest's edge between two places beside the road."""
+def _forest_card(chunks, s0, s1, d0, d1, tall, rng, low_end=None):
+    """An upright picture of a forest's edge between two places beside the road; low_end: the end (0, 1) where the trees are young."""
     a, b = terrain.at(s0, d0), terrain.at(s1, d1)
     long = np.linalg.norm((b - a)[:2])
     u0 = rng.random()
-    up = np.array([0, 0, tall])
+    up = [np.array([0, 0, tall * (0.35 if low_end == end else 1.0)]) for end in (0, 1)]
     low = np.array([0, 0, 2.0])
-    towards = np.array([0.0, 0.0, 1.0]) * 0.6 + np.append(np.sign(-d0) * route.frame(s0)[1][1][:2], 0.0)
-    chunks.at(min(s0, s1)).quad([a - low, b - low, b + up, a + up], "forest", (u0, 0.0, u0 + long / (4.4 * tall), 0.99), np.tile(towards, (4, 1)))
+    _both_sides(chunks.at(min(s0, s1)), [a - low, b - low, b + up[1], a + up[0]], "forest", (u0, 0.0, u0 + long / (4.4 * tall), 0.99))
 
 
 def _forest(chunks):
@@ -227,9 +251,9 @@ def _forest(chunks):
     for first, last, side, near in woods:
         for row, back in enumerate((0, 22, 50)):
             s = np.arange(first - 4 * row, last, 34.0)
-            for a, b in zip(s[:-1], s[1:]):
+            for k, (a, b) in enumerate(zip(s[:-1], s[1:])):
                 d = side * (near + back + rng.uniform(-5, 5, 2))
-                _forest_card(chunks, a, b + 3, d[0], d[1], rng.uniform(12, 15), rng)
+                _forest_card(chunks, a, b + 3, d[0], d[1], rng.uniform(12, 15), rng, 0 if k == 0 else 1 if k == len(s) - 2 else None)
         for s in (first, 0.5 * (first + last), last - 6):
             _forest_card(chunks, s, s + rng.uniform(-8, 8), side * (near - 4), side * (near + 70), 13, rng)
 

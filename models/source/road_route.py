@@ -98,6 +98,11 @@ def slip(s):
     return smoothstep((s - SLIP_IN) / SLIP_LENGTH) - smoothstep((s - SLIP_OUT) / SLIP_LENGTH)
 
 
+def forecourt_edge(s):
+    """d of the forecourt's outer border; the carriageway's edge where there is none."""
+    return -3.9 - 39.3 * (smoothstep((s - 976) / 50) - smoothstep((s - 1080) / 48))
+
+
 def route_d(s):
     return -LANE_M / 2 + (SLIP_D + LANE_M / 2) * slip(np.asarray(s, float))
 

@@ -19,10 +19,7 @@ def _frame():
 def _forecourt(mesh):
     """Paved ground between the road and the shop, widening and narrowing smoothly."""
     s = np.arange(974.0, 1146.1, 4.0)
-    wide = route.smoothstep((s - 976) / 50) - route.smoothstep((s - 1094) / 50)
-    across = np.linspace(0, 1, 4)
-    d = -4.0 - 0.2 - (39.0 * wide)[:, None] * across[None]
-    d[:, 0] = -3.9
+    d = -3.9 + (route.forecourt_edge(s) + 3.9)[:, None] * np.linspace(0, 1, 4)[None]
     grid = route.point(s[:, None], d, -0.006)
     uv = np.stack(np.broadcast_arrays(d / 3.5, s[:, None] / 7.0), axis=-1)
     mesh.grid(grid, "asphalt", uv, True)
@@ -96,7 +93,7 @@ def _canopy(frame):
     place("canopy", mesh.data("canopy"))
     for k, (px, py) in enumerate((px, py) for px in (-8.0, 0.0, 8.0) for py in (-12.5, -20.5)):
         place_at = (local(frame, [(px, py, _UNDERSIDE - 0.15)])[0], frame[1])
-        lamp(f"canopy_light_{k}", place_at, 500.0, 22.0, (1.0, 0.96, 0.88), 160.0)
+        lamp(f"canopy_light_{k}", place_at, 2500.0, 24.0, (1.0, 0.96, 0.88), 160.0)
 
 
 def _shop(frame):
@@ -125,6 +122,23 @@ def _price_sign(frame):
     place("price_sign", mesh.data("price_sign"))
 
 
+def _slab(mesh, frame):
+    """Concrete below the canopy, a drain round it, parking bays before the shop, a kerb along the grass."""
+    def patch(x0, x1, y0, y1, material, tile_m, lift):
+        points = np.array([(x0, y0, lift), (x1, y0, lift), (x1, y1, lift), (x0, y1, lift)])
+        mesh.add(local(frame, points), [(0, 1, 2, 3)], material, points[:, :2] / tile_m)
+    patch(-13.5, 13.5, -26.0, -7.6, "concrete_dark", 6.0, 0.004)
+    for y in (-26.0, -7.9):
+        patch(-13.5, 13.5, y, y + 0.3, "steel_dark", 1.0, 0.008)
+    for x in np.arange(-13.0, 13.1, 2.6):
+        patch(x - 0.05, x + 0.05, -31.0 + 2.2, -26.4, "paint", 1.0, 0.003)
+    s = np.arange(988.0, 1120.1, 4.0)
+    profile_d, profile_h = np.array([0.12, 0.12, 0.0, -0.5]), np.array([-0.05, 0.13, 0.13, 0.02])
+    grid = route.point(s[:, None], route.forecourt_edge(s)[:, None] + profile_d[None], profile_h[None])
+    uv = np.stack(np.broadcast_arrays(s[:, None] / 2.0, np.array([0, 0.1, 0.17, 0.4])[None]), axis=-1)
+    mesh.grid(grid, "kerb", uv, True)
+
+
 def _details(mesh, frame):
     """Lane arrows, bollards and an air pump on the forecourt."""
     for d in (-15.6,):
@@ -141,6 +155,7 @@ def _details(mesh, frame):
 def build():
     frame, mesh = _frame(), Mesh()
     _forecourt(mesh)
+    _slab(mesh, frame)
     _islands(mesh, frame)
     _details(mesh, frame)
     place("forecourt", mesh.data("forecourt"))

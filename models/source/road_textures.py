@@ -36,7 +36,7 @@ def _wheel_tracks(n=512):
     """Across a 3.5 m lane: where tyres have polished and darkened the surface (0..1)."""
     x = (np.arange(n) + 0.5) / n
     track = sum(np.exp(-0.5 * ((x - c) / 0.085) ** 2) for c in (0.28, 0.72))
-    return np.broadcast_to(track, (n, n)) * (1 + 0.15 * noise(n, 18, 3, (0.25, 1)))
+    return np.broadcast_to(track, (n, n)) * (1 + 0.15 * noise(n, 9, 3, (6, 1)))
 
 
 def asphalt():
@@ -60,9 +60,9 @@ def asphalt_roughness():
 
 def concrete():
     n = 256
-    grey = 0.56 + 0.02 * noise(n, 1, 10) + 0.03 * noise(n, 12, 11) + 0.035 * noise(n, 10, 12, (0.15, 1))
-    board = np.minimum(np.arange(n) % 64, 1)[:, None]
-    grey = grey - 0.05 * (1 - board)
+    y, x = np.mgrid[0:n, 0:n]
+    grey = 0.57 + 0.014 * noise(n, 0.9, 10) + 0.014 * noise(n, 26, 11) + 0.022 * noise(n, 2.5, 12, (9, 1))
+    grey = grey - 0.035 * (y % 64 < 1) - 0.09 * (x < 2) - 0.03 * ((y % 64 > 28) & (y % 64 < 32) & (x % 64 > 28) & (x % 64 < 32))
     return np.clip(grey[..., None] * np.array([1.0, 0.985, 0.95]), 0, 1)
 
 
@@ -72,7 +72,7 @@ def tiles():
     y, x = np.mgrid[0:n, 0:n]
     joint = ((x % 128) < 2) | ((y % 128) < 2)
     grime = np.clip((y / n) ** 3 * 0.22, 0, 1)
-    grey = 0.74 - grime + 0.02 * noise(n, 3, 13) + 0.025 * noise(n, 9, 14, (0.12, 1)) - 0.22 * joint
+    grey = 0.74 - grime + 0.02 * noise(n, 3, 13) + 0.03 * noise(n, 2.5, 14, (9, 1)) - 0.22 * joint
     return np.clip(grey[..., None] * np.array([1.0, 0.99, 0.93]), 0, 1)
 
 
@@ -81,14 +81,14 @@ def tiles():
 def grass():
     n = 512
     blades = 0.6 * noise(n, 1.0, 20, (0.4, 1)) + 0.5 * noise(n, 1.2, 21, (1, 0.5))
-    green = tint(0.17 * blades + 0.09 * noise(n, 9, 22), (0.285, 0.36, 0.165))
+    green = tint(0.16 * blades + 0.08 * noise(n, 9, 22), (0.275, 0.325, 0.165))
     dry = np.clip(0.5 + 0.5 * noise(n, 12, 23) + 0.35 * blades, 0, 1)[..., None] ** 2
     return np.clip(green + dry * np.array([0.07, 0.045, 0.01]), 0, 1)
 
 
 def meadow():
     n = 256
-    return tint(0.10 * noise(n, 1.2, 24) + 0.08 * noise(n, 8, 25), (0.31, 0.39, 0.18))
+    return tint(0.10 * noise(n, 1.2, 24) + 0.08 * noise(n, 8, 25), (0.30, 0.355, 0.185))
 
 
 def crop():
@@ -127,7 +127,7 @@ def far_woods():
 
 def plaster():
     n = 256
-    streaks = noise(n, 8, 40, (0.1, 1))
+    streaks = noise(n, 2.5, 40, (9, 1))
     return tint(0.012 * noise(n, 0.8, 41) + 0.018 * streaks + 0.02 * noise(n, 20, 42), (0.84, 0.84, 0.83))
 
 
@@ -156,7 +156,7 @@ def roof():
 
 def bark():
     n = 128
-    return tint(0.22 * noise(n, 1.5, 48, (0.2, 1)) + 0.1 * noise(n, 5, 49), (0.27, 0.235, 0.195))
+    return tint(0.22 * noise(n, 1.2, 48, (6, 1)) + 0.1 * noise(n, 5, 49), (0.27, 0.235, 0.195))
 
 
 def paint():
@@ -254,7 +254,7 @@ def _price():
     for row, (kind, price) in enumerate((("E5", "1.789"), ("E10", "1.729"), ("D", "1.649"))):
         y = 0.32 + 0.225 * row
         stamp_text(t, kind, 0.05, y + 0.03, 0.08, (0.9, 0.9, 0.9))
-        stamp_text(t, price, 0.36, y, 0.125, (1.0, 0.72, 0.25))
+        stamp_text(t, price, 0.38, y, 0.115, (1.0, 0.72, 0.25))
     return t
 
 
@@ -263,7 +263,7 @@ def _round_sign():
     y, x = np.mgrid[-1:1:256j, -1:1:256j]
     r = np.hypot(x, y)
     t[r > 0.70] = (0.68, 0.06, 0.07)
-    stamp_text(t, "50", 0.245, 0.33, 0.36, (0.05, 0.05, 0.05))
+    stamp_text(t, "50", 0.27, 0.34, 0.245, (0.05, 0.05, 0.05))
     return t
 
 
@@ -299,7 +299,7 @@ def _name_sign():
     t = np.ones((256, 256, 3)) * np.array([0.86, 0.68, 0.08])
     _fill(t, 0.03, 0.06, 0.97, 0.94, (0.05, 0.05, 0.05))
     _fill(t, 0.045, 0.085, 0.955, 0.915, (0.86, 0.68, 0.08))
-    stamp_text(t, "ELMTAL", 0.09, 0.30, 0.135, (0.05, 0.05, 0.05), tall=2.6)
+    stamp_text(t, "ELMTAL", 0.10, 0.32, 0.138, (0.05, 0.05, 0.05), tall=2.4)
     return t
 
 

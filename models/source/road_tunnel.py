@@ -28,7 +28,7 @@ def _sweep(mesh, s, profile, material, tile_m, flip):
 def _lining(chunks):
     for first in np.arange(route.TUNNEL_IN, route.TUNNEL_OUT, _STEP_M):
         s, mesh = np.array([first, first + _STEP_M / 2, first + _STEP_M]), chunks.at(first)
-        _sweep(mesh, s, _arch(), "concrete_dark", 5.0, True)
+        _sweep(mesh, s, _arch(), "concrete_vault", 5.0, True)
         for side in (-1, 1):
             wall = [(side * HALF_M, 0.1), (side * HALF_M, _PANEL_M)]
             _sweep(mesh, s, wall, "tiles", 2.6, side < 0)
@@ -61,6 +61,9 @@ def _portal(s, facing):
     mesh.add(local(frame, corners), [(0, 1, 2, 3)], "concrete", np.array(corners)[:, 1:] * [-1, 1] / 4.0)
     mesh.box(frame, (-0.25, -wide, top), (thick, wide, top + 0.35), "concrete", 4.0)
     _ring(mesh, frame)
+    for side in (-1, 1):
+        ends = sorted((side * (EDGE - 0.02), side * (HALF_M + 0.1)), reverse=True)
+        mesh.quad(local(frame, [(0.02, ends[0], -0.3), (0.02, ends[1], -0.3), (0.02, ends[1], 0.165), (0.02, ends[0], 0.165)]), "kerb")
     mesh.box(frame, (0.6, -wide, top - 2.0), (0.9, wide, top), "concrete", 4.0, skip="xzZyY")
     place("portal_in" if facing < 0 else "portal_out", mesh.data("portal"))
 
@@ -98,7 +101,7 @@ def _lamps():
         for d in (-2.3, 2.3):
             place(f"tunnel_lamp_{s:.0f}_{'r' if d < 0 else 'l'}", data, route.frame(s, d, 5.15))
     for k, s in enumerate(np.linspace(route.TUNNEL_IN + 6, route.TUNNEL_OUT - 6, 12)):
-        lamp(f"tunnel_light_{k}", route.frame(s, -1.2 if k % 2 else 1.2, 5.05), 420.0, 24.0, (1.0, 0.82, 0.58), 165.0)
+        lamp(f"tunnel_light_{k}", route.frame(s, -1.2 if k % 2 else 1.2, 5.05), 3000.0, 26.0, (1.0, 0.84, 0.62), 165.0)
     assert length > 150
 
 

@@ -104,27 +104,63 @@ def _houses():
 def _pavements(chunks):
     for side in (-1, 1):
         for first in np.arange(route.VILLAGE_IN, route.VILLAGE_OUT, 20.0):
-            s = np.linspace(first, first + 20, 5)
+            s = np.linspace(first, first + 20, 9)
             near, far = _PAVEMENT
             d = side * np.array([near, near + 0.02, near + 0.16, near + 0.16, far, far + 0.05])
             h = np.array([-0.1, 0.11, 0.13, 0.13, 0.16, -0.25])
-            grid = route.point(s[:, None], d[None], h[None])
+            rise = np.clip(np.minimum(s - route.VILLAGE_IN, route.VILLAGE_OUT - s) / 2.5, 0, 1)[:, None]
+            grid = route.point(s[:, None], d[None], np.where(h > 0, h * rise - 0.12 * (1 - rise), h))
             u = np.array([0, 0.1, 0.17, 0.0, 0.9, 1.1])
             uv = np.stack(np.broadcast_arrays(s[:, None] / 2.0, u[None]), axis=-1)
             chunks.at(first).grid(grid[:, :3], "kerb", uv[:, :3], side < 0)
             chunks.at(first).grid(grid[:, 3:], "paving", uv[:, 3:], side < 0)
 
 
-def _garden_walls(chunks):
-    """Low walls along the pavement, open in front of each door."""
+def _street_plots():
+    """Houses that stand at the street: (s, d, half their depth towards it)."""
+    for s, d, name, gable in PLOTS:
+        if abs(d) < 30 and route.VILLAGE_IN < s < route.VILLAGE_OUT:
+            yield s, d, _HOUSES[name][2 if gable else 3] / 2, _HOUSES[name][3 if gable else 2] / 2
+
+
+def _on_ground(chunks, s0, s1, d0, d1, material, tile_m, lift=0.06):
+    """A patch laid over the ground between two stations and two distances."""
+    low, high = sorted((d0, d1))
+    s, d = np.meshgrid([s0, s1], np.linspace(low, high, 5), indexing="ij")
+    grid = terrain.at(s, d) + [0, 0, lift]
+    chunks.at(s0).grid(grid, material, np.stack([s, d], axis=-1) / tile_m)
+
+
+def _gardens(chunks):
+    """From the pavement a path to each door and a drive beside the house."""
+    for s, d, deep, wide in _street_plots():
+        side = np.sign(d)
+        _on_ground(chunks, s - 0.8, s + 0.8, side * _PAVEMENT[1], d - side * (deep - 0.1), "paving", 2.4)
+        _on_ground(chunks, s + wide + 0.7, s + wide + 3.7, side * _PAVEMENT[1], d, "gravel", 3.0)
+
+
+def _boundaries(chunks):
+    """Low walls or fences along the pavement, open at doors and drives."""
     for side in (-1, 1):
-        gaps = [s for s, d, *_ in PLOTS if d * side > 0 and abs(d) < 30 and s < 400]
+        gaps = [(s, 2.6) for s, d, *_ in _street_plots() if d * side > 0]
+        gaps += [(s + wide + 2.2, 3.6) for s, d, _, wide in _street_plots() if d * side > 0]
         for first in np.arange(route.VILLAGE_IN + 2, route.VILLAGE_OUT - 4, 4.0):
-            if any(abs(first + 2 - s) < 3.2 for s in gaps) or (first // 24) % 3 == 1:
+            style = int(first // 22 + side) % 3
+            if style == 2 or any(abs(first + 2 - at) < reach for at, reach in gaps):
                 continue
-            frame = route.frame(first + 2, side * 6.5)
-            chunks.at(first).box(frame, (-2.02, -0.14, -0.5), (2.02, 0.14, 0.85), "plaster_grey", 2.0, skip="z")
-            chunks.at(first).box(frame, (-2.05, -0.2, 0.85), (2.05, 0.2, 0.95), "concrete", 2.0, skip="z")
+            (_wall if style else _fence)(chunks.at(first), route.frame(first + 2, side * 6.5))
+
+
+def _wall(mesh, frame):
+    mesh.box(frame, (-2.02, -0.14, -0.5), (2.02, 0.14, 0.85), "plaster_grey", 2.0, skip="z")
+    mesh.box(frame, (-2.05, -0.2, 0.85), (2.05, 0.2, 0.95), "concrete", 2.0, skip="z")
+
+
+def _fence(mesh, frame):
+    for x in np.arange(-1.92, 2.0, 0.32):
+        mesh.box(frame, (x - 0.05, -0.02, 0.05), (x + 0.05, 0.02, 1.0), "white", skip="zxX")
+    for z in (0.28, 0.78):
+        mesh.box(frame, (-2.0, -0.03, z), (2.0, 0.03, z + 0.08), "wood", skip="xX")
 
 
 def _lamp_post():
@@ -144,7 +180,7 @@ def _street_lamps():
         d = side * 5.7
         frame = route.frame(s, d, 0.1, 0.0 if side > 0 else np.pi)
         place(f"lamp_post_{k}", data, frame)
-        lamp(f"street_light_{k}", (local(frame, [(0, -1.8, 7.7)])[0], frame[1]), 900.0, 30.0, (1.0, 0.80, 0.52), 150.0)
+        lamp(f"street_light_{k}", (local(frame, [(0, -1.8, 7.7)])[0], frame[1]), 2500.0, 30.0, (1.0, 0.80, 0.52), 150.0)
 
 
 def _car(paint):
@@ -179,17 +215,19 @@ def _car_side(mesh, ring, sign, paint):
 
 
 def _parked_cars():
-    places = [(150, 8.6, 0), (204, -9.0, 1), (246, 9.0, 2), (271, -9.2, 0), (1049, -28.0, 2), (1053, -28.0, 0), (1071, -28.1, 1), (226, 9.2, 1)]
+    """On drives in the village, and in front of the shop."""
+    drives = [(s + wide + 2.2, np.sign(d) * (abs(d) - 3.5)) for s, d, _, wide in _street_plots()]
+    places = [(*drives[k], k) for k in (1, 3, 6, 10, 12, 14)] + [(1050.1, -28.6, 2), (1055.3, -28.6, 0), (1065.7, -28.7, 1)]
     data = [_car(name) for name in ("car_blue", "car_red", "car_silver")]
     for k, (s, d, paint) in enumerate(places):
-        turn = (np.pi / 2 if s > 1000 else 0.0) + (0.0 if k % 2 else np.pi)
-        h = 0.0 if s > 1000 else float(terrain.at(s, d)[2] - route.height(s)) + 0.02
-        place(f"parked_{k}", data[paint], route.frame(s, d, h, turn))
+        h = 0.0 if s > 1000 else float(terrain.at(s, d)[2] - route.height(s)) + 0.07
+        place(f"parked_{k}", data[paint % 3], route.frame(s, d, h, np.pi / 2 + (0.0 if k % 2 else np.pi)))
 
 
 def build(ground):
     _pavements(ground)
-    _garden_walls(ground)
+    _gardens(ground)
+    _boundaries(ground)
     _houses()
     _street_lamps()
     _parked_cars()
