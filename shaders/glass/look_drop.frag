@@ -13,8 +13,12 @@ in DropToPixel {
 
 layout(location = 0) out vec4 color;
 
-// Light that arrives from where a ray leaves to, drop's frame.
+// Light that arrives from where a ray leaves to, drop's frame. An eye outside sees the cabin in the picture, close behind the glass.
 vec3 arriving(vec3 direction, float spread_rad) {
+  if (direction.z < 0.0 && i.from_eye.z < 0.0) {
+    vec2 at = (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw;
+    return decode(textureLod(picture, at, 3.0).rgb);
+  }
   return surroundingsOfGlass(i.world_from_drop * direction, i.world_from_drop[2], spread_rad);
 }
 
@@ -51,7 +55,7 @@ vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread) {
 vec2 straighten(vec2 base) {
   vec2 q = vec2(base.x / i.cap.z, base.y);
   float angle = atan(q.y, q.x) + i.outline.z;
-  float ragged = i.outline.x * (0.12 * cos(2.0 * angle + 1.7 * i.outline.z) + 0.09 * cos(3.0 * angle) + 0.05 * cos(5.0 * angle - i.outline.z));
+  float ragged = i.outline.x * (0.07 * cos(2.0 * angle + 1.7 * i.outline.z) + 0.05 * cos(3.0 * angle) + 0.025 * cos(5.0 * angle - i.outline.z));
   float narrow = 1.0 - 0.5 * i.outline.y * smoothstep(0.6, -1.0, q.x);
   return vec2(base.x, base.y / narrow) / (1.0 + ragged);
 }

@@ -92,8 +92,10 @@ Picture draw(const GladGLContext& gl, glass::GlassLook& look, const Scene& scene
   gl::Texture2D color(gl, GL_RGBA16F, scene.size_px.x, scene.size_px.y);
   gl::Texture2D depth(gl, GL_DEPTH_COMPONENT32F, scene.size_px.x, scene.size_px.y);
   const gl::Framebuffer target(gl, {&color}, &depth);
-  const float far = scene.view.reversed_depth ? 0.0f : 1.0f;
-  gl.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far);
+  gl.DepthMask(GL_TRUE);  // the look leaves it off
+  const float farthest = scene.view.reversed_depth ? 0.0f : 1.0f;
+  const float depth_value = scene.depth < 0.0f ? farthest : scene.depth;
+  gl.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &depth_value);
   color.zero();
   if (!scene.picture.empty())
     color.write(0, 0, 0, 0, scene.size_px.x, scene.size_px.y, GL_RGBA, GL_FLOAT, scene.picture.data());

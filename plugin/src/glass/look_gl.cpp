@@ -61,9 +61,11 @@ struct GlassLook::Parts {
         smooth(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
         mipped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
         exact(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
+        no_film(gl, GL_RGBA16F, 1, 1),
         film_target(gl),
         picture(gl),
         capture(gl) {
+    no_film.zero();
     mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
     mesh_layout.attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
     mesh_layout.attribute(2, 0, 2, GL_FLOAT, 6 * sizeof(float));
@@ -86,6 +88,7 @@ struct GlassLook::Parts {
   gl::Buffer frame_block;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, mipped, exact;
+  gl::Texture2D no_film;    // a dry texel
   gl::Texture2D film_seen;  // of look_film.frag, for the pane being drawn
   gl::Framebuffer film_target;
   LookPicture picture;
@@ -171,7 +174,7 @@ void GlassLook::Parts::composeFilm(const LookPane& pane) {
 
 void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.Disable(GL_BLEND);
-  gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen.name() : 0);
+  gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen.name() : no_film.name());
   gl.BindSampler(kFirst, smooth.name());
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
   mesh_layout.bindIndices(pane.index_buffer);
@@ -198,6 +201,7 @@ void GlassLook::Parts::forget() {
   mesh_layout.forget();
   no_layout.forget();
   for (gl::Sampler* sampler : {&smooth, &mipped, &exact}) sampler->forget();
+  no_film.forget();
   film_seen.forget();
   film_target.forget();
   picture.forget();

@@ -1,0 +1,189 @@
+// What is seen through a wet pane, against the laws of optics.
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+#include "environment.h"
+#include "flat_pane.h"
+#include "gl_fixture.h"
+
+namespace rg::test {
+namespace {
+
+using shared::GlassDropRecord;
+
+const double kRake = glm::radians(30.0);
+const double kFov = glm::radians(40.0);
+
+std::vector<glm::vec4> paint(glm::ivec2 size_px, const std::function<glm::vec3(int x, int y)>& color) {
+  std::vector<glm::vec4> pixels;
+  for (int y = 0; y < size_px.y; ++y) {
+    for (int x = 0; x < size_px.x; ++x) pixels.emplace_back(color(x, y), 1.0f);
+  }
+  return pixels;
+}
+
+std::vector<GlassDropRecord> scatter(const FlatPane& pane, int count, double radius_m, double contact_rad,
+                                     uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-0.12, 0.12);
+  std::vector<GlassDropRecord> drops;
+  for (int k = 0; k < count; ++k) {
+    drops.push_back(pane.cap(place(random), place(random), radius_m, contact_rad));
+    drops.back().seed = static_cast<uint32_t>(k) * 7919u + 1u;
+  }
+  return drops;
+}
+
+glm::vec3 checks(int x, int y) { return glm::vec3(static_cast<float>((x / 8 + y / 8) % 2)); }
+
+class Look : public GlTest {
+ protected:
+  Scene inside(glm::ivec2 size_px) const {
+    Scene scene;
+    scene.size_px = size_px;
+    scene.view = forwardView(size_px, kFov);
+    return scene;
+  }
+  glass::GlassLook look{gl};
+};
+
+TEST_F(Look, cleanGlassPassesThePictureToTheBit) {
+  FlatPane pane(gl, kRake, 0.8, 64);
+  pane.putFilm([](double, double) { return 1e-7; });  // what a wiper leaves
+  Scene scene = inside({160, 90});
+  std::mt19937 random(1);
+  scene.picture =
+      paint(scene.size_px, [&](int, int) { return glm::vec3(static_cast<float>(random() % 1024)) / 512.0f; });
+  EXPECT_EQ(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.0f);
+}
+
+// Deviation of the view ray by a film whose thickness grows along an axis, in units of its slope: physics.md
+// 6, 60 degrees of incidence.
+class FilmWedge : public Look {
+ protected:
+  glm::dvec2 deviationPerSlope(double slope_u, double slope_v) {
+    FlatPane pane(gl, kRake, 0.8, 256);
+    // Thick enough not to bead up anywhere near the middle.
+    pane.putFilm([&](double u, double v) { return std::max(2e-3 + slope_u * u + slope_v * v, 0.0); });
+    Scene scene = inside({640, 360});
+    scene.picture =
+        paint(scene.size_px, [](int x, int y) { return glm::vec3(x - 320, y - 180, 0.0f) / 64.0f; });
+    const Picture seen = draw(gl, look, scene, {&pane.pane, 1});
+    const Picture plain = draw(gl, look, scene, {});
+    const glm::vec4 moved = 64.0f * (seen.at(320, 180) - plain.at(320, 180));
+    const double px_per_rad = 320.0 / std::tan(0.5 * kFov);
+    return glm::dvec2(moved.x, moved.y) / px_per_rad;
+  }
+};
+
+TEST_F(FilmWedge, bendsTheViewInThePlaneOfIncidenceBy103Percent) {
+  const double slope = 0.01;
+  const glm::dvec2 deviation = deviationPerSlope(0.0, slope);
+  EXPECT_NEAR(deviation.y / slope, 1.03,
+              0.05);  // the law is of first order; half-float colours hold 0.03 of the slope
+  EXPECT_NEAR(deviation.x / slope, 0.0, 0.03);
+}
+
+TEST_F(FilmWedge, bendsTheViewAcrossThePlaneOfIncidenceBy51Percent) {
+  const double slope = 0.01;
+  const glm::dvec2 deviation = deviationPerSlope(slope, 0.0);
+  EXPECT_NEAR(deviation.x / slope, 0.51, 0.04);
+  EXPECT_NEAR(deviation.y / slope, 0.0, 0.03);
+}
+
+TEST_F(Look, inAUniformWorldWaterIsInvisible) {
+  // Every ray ends in the same light, so whatever is bent, reflected or split, as much must arrive: a white
+  // furnace.
+  FlatPane pane(gl, kRake, 0.8, 200);
+  pane.putFilm([](double u, double v) { return 60e-6 * (1.0 + std::sin(90.0 * u) * std::cos(70.0 * v)); });
+  std::vector<GlassDropRecord> drops = scatter(pane, 150, 3e-3, glm::radians(35.0), 2);
+  for (const GlassDropRecord& drop : scatter(pane, 150, 2e-3, glm::radians(95.0), 3)) drops.push_back(drop);
+  for (size_t k = 0; k < drops.size(); k += 3) drops[k].elongation = 1.8f;
+  pane.putDrops(drops);
+  const gl::TextureCube cube = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(1.0f); });
+  Scene scene = inside({640, 360});
+  scene.light.environment_cube = cube.name();
+  scene.picture = paint(scene.size_px, [](int, int) { return glm::vec3(1.0f); });
+  // Rays are given up when 1 % is left of them, and shares below 0.4 % are not looked up.
+  EXPECT_LT(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.025f);
+}
+
+TEST_F(Look, everyDepthConventionShowsTheSame) {
+  FlatPane pane(gl, kRake, 0.8, 64);
+  pane.putFilm([](double u, double) { return 2e-4 * (1.0 + std::sin(80.0 * u)); });
+  pane.putDrops(scatter(pane, 200, 3e-3, glm::radians(60.0), 4));
+  Scene scene = inside({320, 180});
+  scene.picture = paint(scene.size_px, checks);
+  const Picture usual = draw(gl, look, scene, {&pane.pane, 1});
+  glm::dmat4& clip = scene.view.clipFromEye;  // infinite, reversed, 0 .. 1
+  clip[2] = glm::dvec4(0.0, 0.0, 0.0, -1.0);
+  clip[3] = glm::dvec4(0.0, 0.0, 0.05, 0.0);
+  scene.view.clip_zero_to_one = scene.view.reversed_depth = true;
+  EXPECT_LT(greatestDifference(usual, draw(gl, look, scene, {&pane.pane, 1})), 0.02f);
+  scene.depth = 0.9f;  // something stands between eye and glass
+  EXPECT_EQ(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.0f);
+}
+
+TEST_F(Look, farFromTheWorldsOriginNothingTrembles) {
+  FlatPane pane(gl, kRake, 0.8, 64);
+  pane.putDrops(scatter(pane, 200, 2e-3, glm::radians(60.0), 5));
+  Scene scene = inside({320, 180});
+  scene.picture = paint(scene.size_px, checks);
+  const Picture near = draw(gl, look, scene, {&pane.pane, 1});
+  const glm::dmat4 away = glm::translate(glm::dmat4(1.0), glm::dvec3(1e6, -2e6, 30.0));
+  scene.view.eyeFromWorld = scene.view.eyeFromWorld * glm::inverse(away);
+  pane.pane.worldFromVehicle = away;
+  // Doubles hold 2e-10 m there: far below a pixel, but a sample on an edge may fall to its other side.
+  EXPECT_LT(greatestDifference(near, draw(gl, look, scene, {&pane.pane, 1})), 0.02f);
+}
+
+double lightTaken(const Picture& with, const Picture& without) {
+  double sum = 0.0;
+  for (size_t k = 0; k < with.pixels.size(); ++k)
+    sum += std::abs(static_cast<double>(without.pixels[k].x - with.pixels[k].x));
+  return sum / static_cast<double>(with.pixels.size());
+}
+
+TEST_F(Look, dropsBelowAPixelCoverAsMuchAsTheyAre) {
+  // Against a white sky with nothing else in the world drops are dark, so what they take from the picture is
+  // their area.
+  FlatPane pane(gl, kRake, 0.8, 64);
+  std::vector<GlassDropRecord> drops = scatter(pane, 1500, 0.5e-3, glm::radians(60.0), 6);
+  for (GlassDropRecord& drop : drops) drop.seed = 0;
+  pane.putDrops(drops);
+  const gl::TextureCube black = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(0.0f); });
+  const auto taken = [&](glm::ivec2 size_px) {
+    Scene scene = inside(size_px);
+    scene.light.environment_cube = black.name();
+    scene.picture = paint(size_px, [](int, int) { return glm::vec3(1.0f); });
+    return lightTaken(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {}));
+  };
+  const double resolved = taken({1920, 1080});  // 2.8 pixels wide
+  ASSERT_GT(resolved, 0.002);
+  EXPECT_NEAR(taken({320, 180}) / resolved, 1.0, 0.25);  // a box a pixel wide stands for a disc
+  EXPECT_NEAR(taken({160, 90}) / resolved, 1.0, 0.25);
+}
+
+TEST_F(Look, aPaneSeenFromOutsideShowsTheSkyInItsDryGlass) {
+  FlatPane pane(gl, kRake, 0.8, 64);
+  Scene scene;
+  scene.size_px = {160, 90};
+  scene.view.eyeFromWorld =
+      glm::lookAt(glm::dvec3(1.0, 0.0, 0.6), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+  scene.view.clipFromEye = forwardView(scene.size_px, glm::radians(20.0)).clipFromEye;
+  scene.view.viewport_px = {0, 0, 160, 90};
+  scene.picture = paint(scene.size_px, [](int, int) { return glm::vec3(0.5f); });
+  const gl::TextureCube sky =
+      makeCube(gl, 32, [](const glm::vec3& d) { return glm::vec3(d.z > 0.0f ? 2.0f : 0.0f); });
+  scene.light.environment_cube = sky.name();
+  const Picture seen = draw(gl, look, scene, {&pane.pane, 1});
+  // The pane's normal (.5, 0, .87) against the view: about 28 degrees of incidence; two faces of index 1.52
+  // give back 8.3 %.
+  const double reflected = 0.083;
+  EXPECT_NEAR(static_cast<double>(seen.at(80, 45).x), 0.5 * (1.0 - reflected) + 2.0 * reflected, 0.01);
+}
+
+}  // namespace
+}  // namespace rg::test
