@@ -19,6 +19,8 @@ struct Sky {
 double cloudCover(const Sky& sky);
 /// Extinction of the air and its rain, 1/m: 3.912 / range (Koschmieder 1924, 2 % contrast) + 0.312 R^0.67 per km (Weber et al. 2015).
 double extinction(const Sky& sky);
+/// Radiance of an overcast zenith, 1000 cd/m^2: darker the heavier the rain.
+double overcastZenith(const Sky& sky);
 /// Irradiance on a plane across the sun's rays, 1000 lx, clouds counted.
 glm::vec3 sunIrradiance(const Sky& sky);
 

@@ -61,9 +61,15 @@ void restoreRanges(const GladGLContext& gl, const std::array<BufferState::Range,
 
 }  // namespace
 
-void ProgramState::save(const Context& context) { program = integer(context.gl, GL_CURRENT_PROGRAM); }
+void ProgramState::save(const Context& context) {
+  program = integer(context.gl, GL_CURRENT_PROGRAM);
+  pipeline = integer(context.gl, GL_PROGRAM_PIPELINE_BINDING);
+}
 
-void ProgramState::restore(const Context& context) const { context.gl.UseProgram(asName(program)); }
+void ProgramState::restore(const Context& context) const {
+  context.gl.UseProgram(asName(program));
+  context.gl.BindProgramPipeline(asName(pipeline));
+}
 
 void VertexState::save(const Context& context) {
   vertex_array = integer(context.gl, GL_VERTEX_ARRAY_BINDING);

@@ -1,0 +1,87 @@
+// A scene on the GPU: static parts merged into few draws, each with its bounds, material and the body it moves with.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "render/sky_visibility.h"
+#include "scene/scene.h"
+#include "window/context.h"
+
+namespace host {
+
+enum class SceneFrame;
+
+/// Which of a program's variants a material needs (names in shaders/scene.frag).
+enum Feature : unsigned {
+  kBaseMap = 1,
+  kRoughnessMap = 2,
+  kNormalMap = 4,
+  kGlowMap = 8,
+  kMask = 16,
+  kBlend = 32,
+  kGlossy = 64,
+  kShelter = 128,
+  kSun = 256,
+};
+
+struct GpuMaterial {
+  GLuint base_map = 0, roughness_map = 0, normal_map = 0, glow_map = 0;
+  glm::vec4 base{1.0F};
+  glm::vec4 surface{0.0F};  ///< metallic, roughness, cutoff, normal scale
+  glm::vec3 glow{0.0F};
+  float film = 0.0F;  ///< how much of a glossy film of water it holds when level: grass and gravel none, asphalt whole
+  unsigned features = 0;
+  bool double_sided = false;
+};
+
+/// One call's triangles, in their body's axes.
+struct GpuDraw {
+  std::uint32_t first = 0, count = 0;
+  int body = 0;
+  int material = 0;
+  unsigned part = 1;  ///< Parts
+  int role = -1;      ///< LightRole when its glow follows a lamp's level
+  glm::vec3 middle{0.0F}, half{0.0F};
+};
+
+struct GpuLamp {
+  int node = 0;
+  int role = -1;
+  Light light;
+};
+
+struct GpuGrid {
+  SkyGrid grid;
+  GLuint texture = 0;
+};
+
+class GpuScene {
+ public:
+  GpuScene(const GladGLContext& gl, const Scene& scene, SceneFrame frame);
+  ~GpuScene();
+  GpuScene(const GpuScene&) = delete;
+  GpuScene& operator=(const GpuScene&) = delete;
+
+  SceneFrame frame;
+  glm::mat4 host_from_file{1.0F};
+  Scene tree;                ///< nodes only: to pose it
+  std::vector<int> bodies;   ///< node each body moves with, -1: none
+  std::vector<GpuMaterial> materials;
+  std::vector<GpuDraw> draws;
+  std::vector<GpuLamp> lamps;
+  std::vector<GpuGrid> grids;  ///< in the host's frame of the scene
+  GLuint vertex_array = 0;
+
+ private:
+  void uploadMaterials(const Scene& scene);
+  void uploadMeshes(const Scene& scene);
+  void measureShelters(const Scene& scene);
+  GLuint upload(const Scene& scene, const TextureUse& use, bool mask);
+
+  const GladGLContext& gl_;
+  std::vector<GLuint> textures_;
+  GLuint vertices_ = 0, indices_ = 0;
+};
+
+}  // namespace host

@@ -1,0 +1,49 @@
+#include "render/instance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace host {
+namespace {
+
+/// Lamps in a road's file are those of a night; beside daylight a camera that shows both sees none of them. The picture lets them shine as
+/// the eye sees them, which adapts to each part of the view by itself.
+constexpr float kStreetLampGain = 10.0F;
+constexpr float kCandelaPerUnit = 1000.0F;
+constexpr float kFaintest_klx = 0.004F;
+constexpr float kFarthest_m = 60.0F;
+
+}  // namespace
+
+float lampReach(const LampNow& lamp) {
+  const float brightest = std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
+  return std::min(std::sqrt(brightest / kFaintest_klx), kFarthest_m);
+}
+
+void Instance::place(const Placement& to) {
+  placement = to;
+  const std::vector<glm::mat4> nodes = scene->tree.sceneFromNode(to.poses.empty() ? scene->tree.restPoses() : to.poses);
+  const glm::dmat4 world_from_file = to.world_from_host * glm::dmat4(scene->host_from_file);
+  world_from_body.clear();
+  for (int node : scene->bodies) {
+    world_from_body.push_back(node < 0 ? world_from_file : world_from_file * glm::dmat4(nodes[static_cast<std::size_t>(node)]));
+  }
+  lamps.clear();
+  for (const GpuLamp& lamp : scene->lamps) {
+    float level = lamp.role < 0 ? 1.0F : to.lamp_levels[static_cast<std::size_t>(lamp.role)];
+    if (level <= 0.0F) continue;
+    if (lamp.role == static_cast<int>(LightRole::Street)) level *= kStreetLampGain;
+    const glm::dmat4 world_from_lamp = world_from_file * glm::dmat4(nodes[static_cast<std::size_t>(lamp.node)]);
+    LampNow now;
+    now.position_m = glm::dvec3(world_from_lamp[3]);
+    now.direction = -glm::normalize(glm::vec3(world_from_lamp[2]));
+    now.intensity = lamp.light.colour * (lamp.light.intensity * level / kCandelaPerUnit);
+    if (lamp.light.kind == LightKind::Spot) {
+      now.cos_inner = std::cos(lamp.light.inner_cone_rad);
+      now.cos_outer = std::cos(lamp.light.outer_cone_rad);
+    }
+    lamps.push_back(now);
+  }
+}
+
+}  // namespace host

@@ -1,0 +1,198 @@
+#include "render/painter.h"
+
+#include <algorithm>
+#include <array>
+
+namespace host {
+namespace {
+
+constexpr std::size_t kLampsPerDraw = 16;
+constexpr std::size_t kGridsPerDraw = 2;
+
+constexpr std::array<std::pair<unsigned, const char*>, 9> kNames = {{{kBaseMap, "BASE_MAP"},
+                                                                     {kRoughnessMap, "ROUGHNESS_MAP"},
+                                                                     {kNormalMap, "NORMAL_MAP"},
+                                                                     {kGlowMap, "GLOW_MAP"},
+                                                                     {kMask, "MASK"},
+                                                                     {kBlend, "BLEND"},
+                                                                     {kGlossy, "GLOSSY"},
+                                                                     {kShelter, "SHELTER"},
+                                                                     {kSun, "SUN"}}};
+
+bool overlaps(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) {
+  const glm::vec3 middle(placed.box_from_world * glm::dvec4(glm::dvec3(item.middle) + eye_m, 1.0));
+  const glm::mat3 m{glm::dmat3(placed.box_from_world)};
+  const glm::vec3 half = glm::abs(m[0]) * item.half.x + glm::abs(m[1]) * item.half.y + glm::abs(m[2]) * item.half.z;
+  return glm::all(glm::lessThan(glm::abs(middle - 0.5F), half + 0.5F));
+}
+
+}  // namespace
+
+Painter::Painter(const GladGLContext& gl) : gl_(gl) {
+  gl.CreateBuffers(1, &frame_buffer_);
+  gl.NamedBufferStorage(frame_buffer_, sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+}
+
+Painter::~Painter() { gl_.DeleteBuffers(1, &frame_buffer_); }
+
+const Program& Painter::program(unsigned features) {
+  std::unique_ptr<Program>& found = programs_[features];
+  if (!found) {
+    std::vector<std::string> defines;
+    for (const auto& [feature, name] : kNames) {
+      if (features & feature) defines.emplace_back(name);
+    }
+    found = std::make_unique<Program>(gl_, std::initializer_list<const char*>{"frame.glsl", "scene.vert"},
+                                      std::initializer_list<const char*>{"frame.glsl", "scene.frag"}, defines);
+  }
+  return *found;
+}
+
+void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps, std::span<const PlacedGrid> grids,
+                       GLuint mirrored, GLuint shadow) {
+  frame_ = frame;
+  eye_m_ = eye_m;
+  grids_ = grids;
+  lamps_.clear();
+  for (const LampNow& lamp : lamps.first(std::min<std::size_t>(lamps.size(), kMaxLamps))) {
+    const std::size_t i = lamps_.size();
+    const LampAt at{glm::vec3(lamp.position_m - eye_m), lampReach(lamp)};
+    frame_.lamp_place[i] = glm::vec4(at.place, 1.0F / (at.reach_m * at.reach_m));
+    frame_.lamp_aim[i] = glm::vec4(lamp.direction, lamp.cos_outer);
+    frame_.lamp_intensity[i] = glm::vec4(lamp.intensity, lamp.cos_outer <= -1.0F ? 1e6F : 1.0F / std::max(lamp.cos_inner - lamp.cos_outer, 1e-3F));
+    lamps_.push_back(at);
+  }
+  gl_.NamedBufferSubData(frame_buffer_, 0, sizeof(FrameBlock), &frame_);
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer_);
+  gl_.BindTextureUnit(4, mirrored);
+  gl_.BindTextureUnit(5, shadow);
+}
+
+unsigned Painter::featuresOf(const DrawItem& item, bool sheltered) const {
+  unsigned features = item.material().features;
+  if (frame_.air.x * item.material().film > 0.0F) features |= kGlossy;
+  if (sheltered) features |= kShelter;
+  if (frame_.to_sun.w > 0.0F) features |= kSun;
+  return features;
+}
+
+Painter::Grids Painter::gridsOf(const DrawItem& item) const {
+  Grids found;
+  for (const PlacedGrid& placed : grids_) {
+    // A car's cabin is its own; a road's tunnel darkens the car as a whole (Instance::open).
+    if (placed.owner == item.instance && found.size() < kGridsPerDraw && overlaps(placed, item, eye_m_)) found.push_back(&placed);
+  }
+  return found;
+}
+
+void Painter::setMaterial(const Program& program, const DrawItem& item, unsigned features) const {
+  const GpuMaterial& material = item.material();
+  const int role = item.draw->role;
+  const float level = role < 0 ? 1.0F : item.instance->placement.lamp_levels[static_cast<std::size_t>(role)];
+  const bool road = item.instance->scene->frame == SceneFrame::Road;
+  program.set("u_base", material.base);
+  program.set("u_surface", material.surface);
+  program.set("u_glow", material.glow * level);
+  program.set("u_wet", road ? glm::vec2(1.0F, material.film) : glm::vec2(0.0F));
+  program.set("u_open", item.instance->open);
+  if (features & kBaseMap) gl_.BindTextureUnit(0, material.base_map);
+  if (features & kRoughnessMap) gl_.BindTextureUnit(1, material.roughness_map);
+  if (features & kNormalMap) gl_.BindTextureUnit(2, material.normal_map);
+  if (features & kGlowMap) gl_.BindTextureUnit(3, material.glow_map);
+}
+
+Painter::Lamps Painter::lampsOf(const DrawItem& item) const {
+  Lamps found;
+  for (std::size_t i = 0; i < lamps_.size() && found.size() < kLampsPerDraw; ++i) {
+    const glm::vec3 off = glm::max(glm::abs(lamps_[i].place - item.middle) - item.half, 0.0F);
+    if (glm::dot(off, off) < lamps_[i].reach_m * lamps_[i].reach_m) found.push_back(static_cast<GLint>(i));
+  }
+  return found;
+}
+
+void Painter::setLamps(const Program& program, const Lamps& lamps) const {
+  std::array<GLint, kLampsPerDraw> chosen{};
+  std::copy(lamps.begin(), lamps.end(), chosen.begin());
+  program.set("u_lamp_count", static_cast<int>(lamps.size()));
+  if (!lamps.empty()) gl_.ProgramUniform4iv(program.name(), program.location("u_lamps"), kLampsPerDraw / 4, chosen.data());
+}
+
+void Painter::setGrids(const Program& program, const Grids& grids) const {
+  std::array<glm::mat4, kGridsPerDraw> grid_from_rel{};
+  std::array<glm::vec4, kGridsPerDraw> shape{};
+  std::array<float, kGridsPerDraw> dry{};
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    glm::dmat4 box_from_rel = grids[i]->box_from_world;
+    box_from_rel[3] = box_from_rel * glm::dvec4(eye_m_, 1.0);
+    grid_from_rel[i] = glm::mat4(box_from_rel);
+    shape[i] = glm::vec4(grids[i]->grid->grid.border, grids[i]->grid->grid.probe_step_m);
+    dry[i] = 1.0F;
+    gl_.BindTextureUnit(6 + static_cast<GLuint>(i), grids[i]->grid->texture);
+  }
+  const auto count = static_cast<GLsizei>(grids.size());
+  gl_.ProgramUniformMatrix4fv(program.name(), program.location("u_grid_from_rel"), count, GL_FALSE, &grid_from_rel[0][0][0]);
+  gl_.ProgramUniform4fv(program.name(), program.location("u_grid"), count, &shape[0][0]);
+  gl_.ProgramUniform1fv(program.name(), program.location("u_dry"), count, dry.data());
+  program.set("u_grid_count", count);
+}
+
+/// How many of the first items can be drawn by one call: the same body and material, without lamps and shelters of their own.
+std::size_t Painter::alike(std::span<const DrawItem> items) const {
+  const DrawItem& first = items.front();
+  std::size_t count = 1;
+  while (count < items.size()) {
+    const DrawItem& next = items[count];
+    const bool same = next.instance == first.instance && next.draw->body == first.draw->body && next.draw->material == first.draw->material &&
+                      next.draw->role == first.draw->role;
+    if (!same || !gridsOf(next).empty() || !lampsOf(next).empty()) break;
+    ++count;
+  }
+  return count;
+}
+
+void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& lamps) {
+  const unsigned features = featuresOf(item, !grids.empty());
+  const Program& its = program(features);
+  its.use();
+  const bool blended = (features & kBlend) != 0;
+  (blended ? gl_.Enable : gl_.Disable)(GL_BLEND);
+  (item.material().double_sided ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+  gl_.DepthMask(blended ? GL_FALSE : GL_TRUE);
+  its.set("u_rel_from_body", item.rel_from_body);
+  setMaterial(its, item, features);
+  setLamps(its, lamps);
+  if (!grids.empty()) setGrids(its, grids);
+  gl_.BindVertexArray(item.instance->scene->vertex_array);
+}
+
+Painted Painter::paint(const DrawList& list) {
+  Painted painted;
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_GREATER);
+  gl_.CullFace(GL_BACK);
+  gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  std::span<const DrawItem> items = list.items();
+  std::vector<GLsizei> counts;
+  std::vector<const void*> firsts;
+  while (!items.empty()) {
+    const Grids grids = gridsOf(items.front());
+    const Lamps lamps = lampsOf(items.front());
+    const std::size_t together = grids.empty() && lamps.empty() ? alike(items) : 1;
+    setState(items.front(), grids, lamps);
+    counts.clear();
+    firsts.clear();
+    for (const DrawItem& item : items.first(together)) {
+      counts.push_back(static_cast<GLsizei>(item.draw->count));
+      firsts.push_back(reinterpret_cast<const void*>(std::uintptr_t{item.draw->first} * sizeof(std::uint32_t)));
+      painted.triangles += item.draw->count / 3;
+    }
+    gl_.MultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, firsts.data(), static_cast<GLsizei>(together));
+    ++painted.draws;
+    items = items.subspan(together);
+  }
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_BLEND);
+  return painted;
+}
+
+}  // namespace host

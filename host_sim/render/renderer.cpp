@@ -1,0 +1,304 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+
+#include "render/draw_list.h"
+#include "render/environment.h"
+#include "render/gpu_scene.h"
+#include "render/instance.h"
+#include "render/painter.h"
+#include "render/shadow.h"
+
+namespace host {
+namespace {
+
+/// A glowing surface of emissive factor 1, 1000 cd/m^2: a lit window or lamp cover that is seen to glow by day.
+constexpr float kGlow = 6.0F;
+/// Share of the light outside that lamps and walls keep up in the darkest shelter.
+constexpr double kBounceInShelter = 0.02F;
+
+glm::dvec3 eyeOf(const glm::dmat4& eye_from_world) { return glm::dvec3(glm::inverse(eye_from_world)[3]); }
+
+}  // namespace
+
+struct Renderer::Self {
+  explicit Self(const Context& context)
+      : gl(context.gl()), environment(gl), shadow(gl), painter(gl), background(gl, {"full.vert"}, {"frame.glsl", "background.frag"}),
+        tone(gl, {"full.vert"}, {"tone.frag"}) {
+    gl.CreateVertexArrays(1, &no_vertices);
+  }
+  ~Self() { gl.DeleteVertexArrays(1, &no_vertices); }
+  Self(const Self&) = delete;
+  Self& operator=(const Self&) = delete;
+
+  const GladGLContext& gl;
+  Environment environment;
+  Shadow shadow;
+  Painter painter;
+  Program background, tone;
+  GLuint no_vertices = 0;
+  std::deque<GpuScene> scenes;
+  std::deque<Instance> instances;
+  std::vector<PlacedGrid> grids;
+  std::vector<LampNow> lamps;
+  Sky sky;
+  bool timing = false;
+  std::vector<PassTime> times;
+
+  bool isRoad(const Instance& instance) const { return instance.scene->frame == SceneFrame::Road; }
+  void placeGrids();
+  void gatherLamps(glm::dvec3 eye_m);
+  FrameBlock frameFor(const glm::dmat4& eye_from_world, const glm::dmat4& projection, glm::dvec3 eye_m) const;
+  void begin(GLuint framebuffer, glm::ivec2 size_px);
+  Painted paintFrom(const View& view, const std::vector<std::pair<const Instance*, unsigned>>& what, float least_size);
+  void paintSky(const View& view);
+  void writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve);
+  glm::vec4 lightAt(glm::dvec3 point_m, float& share) const;
+
+  template <typename Work>
+  void timed(const char* pass, Work work) {
+    if (!timing) {
+      work();
+      return;
+    }
+    gl.Finish();
+    const auto start = std::chrono::steady_clock::now();
+    const Painted painted = work();
+    gl.Finish();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    times.push_back({pass, took.count(), painted.triangles, painted.draws});
+  }
+};
+
+void Renderer::Self::placeGrids() {
+  grids.clear();
+  for (const Instance& instance : instances) {
+    for (const GpuGrid& grid : instance.scene->grids) {
+      grids.push_back({&grid, glm::dmat4(grid.grid.box_from_scene) * glm::inverse(instance.worldFromHost()), &instance});
+    }
+  }
+}
+
+void Renderer::Self::gatherLamps(glm::dvec3 eye_m) {
+  lamps.clear();
+  for (const Instance& instance : instances) lamps.insert(lamps.end(), instance.lamps.begin(), instance.lamps.end());
+  std::stable_sort(lamps.begin(), lamps.end(), [&](const LampNow& a, const LampNow& b) {
+    return glm::distance(a.position_m, eye_m) < glm::distance(b.position_m, eye_m);
+  });
+  if (lamps.size() > kMaxLamps) lamps.resize(kMaxLamps);
+}
+
+FrameBlock Renderer::Self::frameFor(const glm::dmat4& eye_from_world, const glm::dmat4& projection, glm::dvec3 eye_m) const {
+  FrameBlock frame;
+  frame.clip_from_rel = glm::mat4(projection * glm::dmat4(glm::dmat3(eye_from_world)));
+  frame.sh = environment.irradiance();
+  const bool sunny = !environment.isPicture() && cloudCover(sky) < 1.0;
+  frame.to_sun = glm::vec4(glm::normalize(sky.to_sun), sunny ? 1.0F : 0.0F);
+  frame.sun = glm::vec4(sunIrradiance(sky), 0.0F);
+  if (sunny) frame.shadow_from_rel = shadow.mapFromRel(eye_m);
+  frame.haze = glm::vec4(environment.horizonRadiance(), static_cast<float>(extinction(sky)));
+  frame.air = {static_cast<float>(sky.wetness), environment.lastMip(), environment.brightness(), kGlow};
+  frame.eye = glm::vec4(glm::vec3(glm::mod(eye_m, 1024.0)), 0.0F);
+  return frame;
+}
+
+void Renderer::Self::begin(GLuint framebuffer, glm::ivec2 size_px) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.Viewport(0, 0, size_px.x, size_px.y);
+  gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_SCISSOR_TEST);
+  gl.FrontFace(GL_CCW);
+}
+
+Painted Renderer::Self::paintFrom(const View& view, const std::vector<std::pair<const Instance*, unsigned>>& what, float least_size) {
+  const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
+  const FrameBlock frame = frameFor(view.eye_from_world, view.projection, eye_m);
+  DrawList list(eye_m, frame.clip_from_rel, least_size);
+  for (const auto& [instance, parts] : what) list.add(*instance, parts);
+  list.sort();
+  painter.setFrame(frame, eye_m, lamps, grids, environment.mirrored(), shadow.texture());
+  return painter.paint(list);
+}
+
+void Renderer::Self::paintSky(const View& view) {
+  const glm::mat4 clip_from_rel(view.projection * glm::dmat4(glm::dmat3(view.eye_from_world)));
+  background.use();
+  background.set("u_rel_from_clip", glm::inverse(clip_from_rel));
+  gl.BindTextureUnit(4, environment.sky());
+  gl.BindVertexArray(no_vertices);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_CULL_FACE);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_GEQUAL);
+  gl.DepthMask(GL_FALSE);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.DepthMask(GL_TRUE);
+}
+
+void Renderer::Self::writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve) {
+  begin(framebuffer, target.sizePx());
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_CULL_FACE);
+  gl.BindTextureUnit(0, target.colour());
+  tone.set("u_exposure", static_cast<float>(exposure));
+  tone.set("u_curve", curve ? 1 : 0);
+  tone.use();
+  gl.BindVertexArray(no_vertices);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+glm::vec4 Renderer::Self::lightAt(glm::dvec3 point_m, float& share) const {
+  glm::vec4 light(0.0F);
+  share = 0.0F;
+  for (const PlacedGrid& placed : grids) {
+    if (!isRoad(*placed.owner)) continue;
+    const glm::vec3 scene_m(glm::inverse(placed.owner->worldFromHost()) * glm::dvec4(point_m, 1.0));
+    const float part = placed.grid->grid.share(scene_m) * (1.0F - share);
+    if (part <= 0.0F) continue;
+    light += part * placed.grid->grid.at(scene_m);
+    share += part;
+  }
+  return light;
+}
+
+Renderer::Renderer(const Context& context) : self_(std::make_unique<Self>(context)) {}
+Renderer::~Renderer() = default;
+
+SceneId Renderer::addScene(const Scene& scene, SceneFrame frame) {
+  self_->scenes.emplace_back(self_->gl, scene, frame);
+  return static_cast<SceneId>(self_->scenes.size() - 1);
+}
+
+InstanceId Renderer::addInstance(SceneId scene) {
+  Instance instance;
+  instance.scene = &self_->scenes.at(scene);
+  instance.place({});
+  self_->instances.push_back(std::move(instance));
+  return static_cast<InstanceId>(self_->instances.size() - 1);
+}
+
+void Renderer::place(InstanceId instance, Placement placement) { self_->instances.at(instance).place(placement); }
+
+void Renderer::setEnvironment(std::span<const float> rgb, int width, int height) { self_->environment.setPicture(rgb, width, height); }
+
+void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
+  Self& self = *self_;
+  self.times.clear();
+  self.sky = sky;
+  self.gl.BindVertexArray(self.no_vertices);
+  self.timed("sky", [&] {
+    self.environment.update(sky);
+    return Painted{};
+  });
+  self.placeGrids();
+  self.gatherLamps(eye_m);
+  for (Instance& instance : self.instances) {
+    if (self.isRoad(instance)) continue;
+    instance.open = static_cast<float>(skyVisibility(glm::dvec3(instance.worldFromHost() * glm::dvec4(1.3, 0.0, 1.0, 1.0))));
+  }
+  if (self.environment.isPicture() || cloudCover(sky) >= 1.0) return;
+  self.timed("shadow", [&] {
+    std::vector<const Instance*> all;
+    for (const Instance& instance : self.instances) all.push_back(&instance);
+    self.shadow.draw(all, sky.to_sun, eye_m);
+    return Painted{};
+  });
+}
+
+void Renderer::drawWorld(const View& view, const Target& target, std::span<const InstanceId> whole) {
+  Self& self = *self_;
+  self.begin(target.framebuffer(), target.sizePx());
+  const float far = 0.0F;
+  self.gl.ClearNamedFramebufferfv(target.framebuffer(), GL_DEPTH, 0, &far);
+  std::vector<std::pair<const Instance*, unsigned>> what;
+  for (const Instance& instance : self.instances) {
+    if (self.isRoad(instance)) what.emplace_back(&instance, kBody | kWipers | kPanes);
+  }
+  for (InstanceId id : whole) what.emplace_back(&self.instances.at(id), kBody);
+  self.timed("world", [&] {
+    const Painted painted = self.paintFrom(view, what, 0.001F);
+    self.paintSky(view);
+    return painted;
+  });
+}
+
+void Renderer::drawParts(const View& view, const Target& target, InstanceId instance, unsigned parts) {
+  Self& self = *self_;
+  self.begin(target.framebuffer(), target.sizePx());
+  self.timed(parts & kBody ? "cabin" : "wipers", [&] { return self.paintFrom(view, {{&self.instances.at(instance), parts}}, 0.0F); });
+}
+
+void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world, const glm::dmat4& projection) {
+  Self& self = *self_;
+  self.begin(framebuffer, size_px);
+  const float far = 0.0F;
+  self.gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+  std::vector<std::pair<const Instance*, unsigned>> what;
+  for (const Instance& instance : self.instances) {
+    if (self.isRoad(instance)) what.emplace_back(&instance, kBody | kWipers | kPanes);
+  }
+  const View view{eye_from_world, projection};
+  self.timed("capture", [&] {
+    const Painted painted = self.paintFrom(view, what, 0.012F);
+    self.paintSky(view);
+    return painted;
+  });
+}
+
+void Renderer::toneMap(const Target& target, std::uint32_t framebuffer, double exposure) {
+  self_->timed("tone", [&] {
+    self_->writePicture(target, framebuffer, exposure, true);
+    return Painted{};
+  });
+}
+
+void Renderer::encodeSrgb(const Target& target, std::uint32_t framebuffer) { self_->writePicture(target, framebuffer, 1.0, false); }
+
+double Renderer::skyVisibility(glm::dvec3 point_m) const {
+  float share = 0.0F;
+  const glm::vec4 light = self_->lightAt(point_m, share);
+  return static_cast<double>((1.0F - share) + std::min(light.x / kOpenSky.x, share));
+}
+
+LightSummary Renderer::lighting() const {
+  const Self& self = *self_;
+  LightSummary light;
+  light.sky_radiance = self.environment.skyRadiance();
+  light.ground_radiance = self.environment.groundRadiance();
+  if (!self.environment.isPicture()) {
+    light.to_sun = glm::normalize(self.sky.to_sun);
+    light.sun_irradiance = sunIrradiance(self.sky);
+  }
+  light.lamps = self.lamps;
+  light.environment_cube = self.environment.mirrored();
+  return light;
+}
+
+double Renderer::adaptingLuminance(glm::dvec3 eye_m) const {
+  const glm::vec3 around = 0.5F * (self_->environment.skyRadiance() + self_->environment.groundRadiance());
+  const double open = glm::dot(glm::dvec3(around), glm::dvec3(0.2126, 0.7152, 0.0722));
+  return open * (kBounceInShelter + (1.0 - kBounceInShelter) * skyVisibility(eye_m));
+}
+
+void Renderer::setTiming(bool on) { self_->timing = on; }
+std::vector<PassTime> Renderer::times() const { return self_->times; }
+
+glm::dmat4 reversedPerspective(double fov_rad, glm::ivec2 size_px, double near_m) {
+  const double f = 1.0 / std::tan(0.5 * fov_rad);
+  glm::dmat4 projection(0.0);
+  projection[0][0] = f;
+  projection[1][1] = f * size_px.x / size_px.y;
+  projection[2][3] = -1.0;
+  projection[3][2] = near_m;
+  return projection;
+}
+
+double exposureFor(double luminance) { return 0.35 / std::max(luminance, 1e-4); }
+
+}  // namespace host
