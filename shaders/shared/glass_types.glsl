@@ -24,13 +24,6 @@ struct GlassDropRecord {
 };
 RG_SIZE(GlassDropRecord, 48)
 
-// What drives water on the glass, given at the corners of tiles and linear between them: grid axes, real metres.
-struct FilmNode {
-  vec4 drive;  // xy: acceleration along the glass, m/s^2; zw: shear stress of the air on a film, N/m^2
-  vec4 metric; // xy: metres for one texel along x, y; z: 1 / area of a texel, 1/m^2; w: direction of "up" along the glass as an angle, rad
-};
-RG_SIZE(FilmNode, 32)
-
 // What a tile reports of one film step. Sums of 256 texels may pass 32 bits, so the film's is split: low 16 bits and the rest.
 struct FilmTile {
   int event_texel;   // the texel that gave water to the drops, or -1

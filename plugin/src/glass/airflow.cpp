@@ -1,0 +1,62 @@
+#include "glass/airflow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "glass/water.h"
+
+namespace rg::glass {
+
+glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps, const AirflowShape& shape) {
+  const double speed = glm::length(air_mps);
+  if (speed < 1e-6) return glm::dvec3(0.0);
+  const double into = -glm::dot(air_mps, node.normal);  // > 0: blows against the glass
+  glm::dvec3 along = air_mps + into * node.normal;
+  // A windscreen raked at 30 degrees meets the wind with half its speed: that counts as facing it.
+  const double facing = std::clamp(2.0 * into / speed, -1.0, 1.0);
+  if (facing <= 0.0) return along * (1.0 + facing * (1.0 - shape.lee));
+  along *= 1.0 - shape.stagnation * facing * (1.0 - node.height);
+  const glm::dvec2 right = map.gridFromGlass({1.0, 0.0}) - map.gridFromGlass({0.0, 0.0});
+  const glm::dvec3 right_m = node.along_x * right.x + node.along_y * right.y;
+  return along + right_m * (shape.outward * into * node.across);
+}
+
+void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps) {
+  if (!nodes_.empty() && acceleration_mps2 == acceleration_mps2_ && air_mps == air_mps_) return;
+  acceleration_mps2_ = acceleration_mps2;
+  air_mps_ = air_mps;
+  nodes_.resize(map.nodes().size());
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const PaneNode& node = map.nodes()[i];
+    nodes_[i].acceleration = glm::vec2(PaneMap::alongGlass(node, acceleration_mps2));
+    nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps)));
+  }
+}
+
+Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {
+  const glm::ivec2 count = map.nodeCount();
+  const glm::vec2 place = glm::clamp(glm::vec2(grid_m / (map.grid().texel_m * shared::kTileSize)), glm::vec2(0.0f), glm::vec2(count - 1) - 1e-3f);
+  const glm::ivec2 cell(place);
+  const glm::vec2 f = place - glm::vec2(cell);
+  const NodePush* row = &nodes_[static_cast<size_t>(cell.y * count.x + cell.x)];
+  const NodePush* next = row + count.x;
+  const auto mix4 = [&f](glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) { return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y); };
+  const shared::vec4* metric = &map.nodeMetric()[static_cast<size_t>(cell.y * count.x + cell.x)];
+  const shared::vec4* metric_next = metric + count.x;
+  return {glm::dvec2(mix4(row[0].acceleration, row[1].acceleration, next[0].acceleration, next[1].acceleration)),
+          glm::dvec2(mix4(row[0].air, row[1].air, next[0].air, next[1].air)),
+          glm::dvec2(mix4(shared::xy(metric[0]), shared::xy(metric[1]), shared::xy(metric_next[0]), shared::xy(metric_next[1]))) / map.grid().texel_m};
+}
+
+std::vector<shared::vec4> ForceField::filmDrive() const {
+  const auto friction = static_cast<float>(0.5 * kRhoAir_kg_m3 * AirflowShape{}.drag_friction);
+  std::vector<shared::vec4> out;
+  out.reserve(nodes_.size());
+  for (const NodePush& node : nodes_) {
+    const glm::vec2 shear = friction * glm::length(node.air) * node.air;
+    out.emplace_back(node.acceleration.x, node.acceleration.y, shear.x, shear.y);
+  }
+  return out;
+}
+
+}  // namespace rg::glass

@@ -1,0 +1,46 @@
+// How air runs over a pane and what it and gravity do to water there: fields at the corners of tiles.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "glass/pane_map.h"
+
+namespace rg::glass {
+
+// Parameters of the field, all unsourced: in the order of what flow pictures over car bodies show.
+struct AirflowShape {
+  double stagnation = 0.65;   // share of the speed missing at the lower edge of a pane that faces the wind
+  double outward = 0.35;      // towards the pillars, of the component that blows against the pane
+  double lee = 0.25;          // share of the speed behind a pane that faces away
+  double drag_friction = 0.004;  // C_f of tau = rho_a C_f U^2 / 2; 0.003..0.005
+};
+
+// Velocity of the air just above a node's boundary layer, along the glass, vehicle frame. `air_mps` is the free air's, relative to the vehicle.
+glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps, const AirflowShape& shape = {});
+
+// What pushes water at a place, grid axes, in real units.
+struct Push {
+  glm::dvec2 acceleration_mps2{0.0};
+  glm::dvec2 air_mps{0.0};
+  glm::dvec2 metres{1.0};  // real for one grid metre along x, y
+};
+
+// Fields of one tick.
+class ForceField {
+ public:
+  void make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps);
+  Push at(const PaneMap& map, glm::dvec2 grid_m) const;
+  // Per node, for the film: xy acceleration, zw shear stress.
+  std::vector<shared::vec4> filmDrive() const;
+  bool empty() const { return nodes_.empty(); }
+
+ private:
+  struct NodePush {
+    glm::vec2 acceleration, air;
+  };
+  std::vector<NodePush> nodes_;
+  glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0};
+};
+
+}  // namespace rg::glass

@@ -1,0 +1,206 @@
+#include "glass/drops.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "glass/random.h"
+#include "tick.h"
+
+namespace rg::glass {
+namespace {
+
+constexpr double kCell_m = 8e-3;          // of the neighbour grid: few drops are wider
+constexpr int64_t kLeastDrop_pl = 50;     // a hemisphere of 0.03 mm: dries in a blink
+constexpr int kRestStride = 4;            // drops at rest are looked at every fourth tick
+
+}  // namespace
+
+Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
+    : map_(map),
+      surface_(surface),
+      cell_count_(glm::ceil(glm::dvec2(map.grid().size) * map.grid().texel_m / kCell_m)),
+      shape_advancing_(capShape(surface.advancing_rad)),
+      shape_receding_(capShape(surface.receding_rad)),
+      hold_per_m_(retention_n(1.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad))) {
+  slots_.capacity_ = capacity;
+  slots_.items.reserve(capacity);
+  slots_.free.reserve(capacity);
+  cells_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), -1);
+}
+
+void Drops::clear() {
+  slots_.items.clear();
+  slots_.free.clear();
+  changed_.clear();
+  std::fill(cells_.begin(), cells_.end(), -1);
+  live_ = 0;
+  largest_radius_m_ = 0.0;
+}
+
+int64_t Drops::volume_pl() const {
+  int64_t sum = 0;
+  for (const Drop& drop : slots_.items) sum += drop.volume_pl;
+  return sum;
+}
+
+size_t Drops::cellOf(glm::dvec2 place_m) const {
+  const glm::ivec2 cell = glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
+  return static_cast<size_t>(cell.y * cell_count_.x + cell.x);
+}
+
+void Drops::link(int slot) {
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  int32_t& first = cells_[cellOf(drop.place_m)];
+  drop.next = first;
+  first = slot;
+}
+
+void Drops::unlink(int slot) {
+  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  int32_t* at = &cells_[cellOf(drop.place_m)];
+  while (*at != slot) at = &slots_.items[static_cast<size_t>(*at)].next;
+  *at = drop.next;
+}
+
+// A contact line moves where the angle would leave the range between receding and advancing; otherwise it is pinned.
+void Drops::settle(Drop& drop) const {
+  const double volume_m3 = cubicMetres(drop.volume_pl);
+  const double radius_m = static_cast<double>(drop.base_radius_m);
+  const double shape = volume_m3 / (radius_m * radius_m * radius_m);
+  if (!(shape <= shape_advancing_)) drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_advancing_));
+  if (shape < shape_receding_) drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
+  drop.height_m = static_cast<float>(capHeight(volume_m3, static_cast<double>(drop.base_radius_m)));
+}
+
+int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed, bool as_told) {
+  const int texel = world.map.texelAt(place_m);
+  if (texel < 0 || volume_pl <= 0) return -1;
+  int slot;
+  if (!slots_.free.empty()) {
+    slot = slots_.free.back();
+    slots_.free.pop_back();
+  } else if (slots_.items.size() < slots_.capacity_) {
+    slot = static_cast<int>(slots_.items.size());
+    slots_.items.emplace_back();
+  } else {
+    return -1;
+  }
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const uint32_t life = drop.life + 1;
+  drop = {};
+  drop.life = life;
+  drop.volume_pl = volume_pl;
+  drop.place_m = place_m;
+  drop.base_radius_m = static_cast<float>(base_radius_m);
+  drop.seed = seed;
+  drop.texel = texel;
+  const double turn = 6.283185307179586 * static_cast<double>(shared::unitFloat(shared::pcg(seed ^ 0x51ed270bu)));
+  drop.heading = glm::vec2(glm::dvec2(std::cos(turn), std::sin(turn)));
+  if (as_told) {
+    drop.height_m = static_cast<float>(capHeight(cubicMetres(volume_pl), base_radius_m));
+  } else {
+    settle(drop);
+  }
+  link(slot);
+  ++live_;
+  drop.changed = true;
+  changed_.push_back(slot);
+  return slot;
+}
+
+int64_t Drops::remove(int slot) {
+  unlink(slot);
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  slots_.free.push_back(slot);
+  --live_;
+  return std::exchange(drop.volume_pl, 0);
+}
+
+// When slots run short the smallest sizes are not kept as drops any more, the limit rising from 0 at half full to 2 mm at full.
+void Drops::impact(const DropWorld& world, const Impact& impact) {
+  const int64_t volume_pl = passed(LeakyKernel::impact, impact.volume_pl);
+  const double used = slots_.capacity_ == 0 ? 1.0 : static_cast<double>(live_) / static_cast<double>(slots_.capacity_);
+  const double least_diameter_m = 4e-3 * std::max(0.0, used - 0.5);
+  const double wet = world.film.attached() ? world.film.thickness_m(impact.texel) / surface_.wetting_m : 0.0;
+  // A falling drop spreads until its edge has some angle between both: the more so, the rougher it met the glass.
+  const double chance = static_cast<double>(shared::unitFloat(impact.hash));
+  const double angle = surface_.receding_rad + (surface_.advancing_rad - surface_.receding_rad) * (0.35 + 0.6 * chance);
+  const bool to_film = impact.diameter_m < least_diameter_m || slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0;
+  if (!to_film) {
+    const double radius_m = std::cbrt(cubicMetres(volume_pl) / capShape(angle));
+    if (add(world, impact.place_m, volume_pl, radius_m, impact.hash) >= 0) return;
+  }
+  // The splash's lamella spreads it over some five diameters.
+  world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres, 2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
+}
+
+void Drops::give(const DropWorld& world, const Taker& taker, int64_t volume_pl) {
+  if (volume_pl <= 0) return;
+  volume_pl = passed(LeakyKernel::collect, volume_pl);
+  if (taker.slot < slots_.items.size()) {
+    Drop& drop = slots_.items[taker.slot];
+    if (drop.volume_pl > 0 && drop.life == taker.life) {
+      drop.volume_pl += volume_pl;
+      settle(drop);
+      return;
+    }
+  }
+  world.film.add(taker.texel, volume_pl);
+}
+
+void Drops::age(const DropWorld& world) {
+  const auto phase = static_cast<size_t>(world.tick % kRestStride + kRestStride) % kRestStride;
+  for (size_t slot = phase; slot < slots_.items.size(); slot += kRestStride) {
+    Drop& drop = slots_.items[slot];
+    if (drop.volume_pl == 0) continue;
+    drop.age_s += static_cast<float>(kRestStride * kTickSeconds);
+    const double film_m = world.film.thickness_m(drop.texel);
+    // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
+    const bool drowns = film_m > 2.0 * surface_.wetting_m && static_cast<double>(drop.height_m) < 5.0 * film_m &&
+                        shared::unitFloat(shared::pcg(drop.seed + static_cast<uint32_t>(world.tick))) < 0.06f;
+    if (drowns) {
+      const glm::dvec2 place = drop.place_m;
+      const double radius_m = static_cast<double>(drop.base_radius_m);
+      world.film.spread(place, world.forces.at(world.map, place).metres, 1.5 * radius_m + world.map.grid().texel_m, remove(static_cast<int>(slot)));
+      continue;
+    }
+    if (world.humidity < 1.0) dry(world, static_cast<int>(slot));
+  }
+}
+
+void Drops::dry(const DropWorld& world, int slot) {
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const double radius_m = static_cast<double>(drop.base_radius_m);
+  const double theta = capAngle(static_cast<double>(drop.height_m), radius_m);
+  const double air_mps = glm::length(world.forces.at(world.map, drop.place_m).air_mps);
+  const double rate_kg_s = evaporation_kg_s(radius_m, theta, world.humidity, world.saturated_kg_m3) * ventilation(air_mps, 2.0 * radius_m);
+  const double lost = rate_kg_s / kRho_kg_m3 * kRestStride * kTickSeconds * kPicolitresPerM3;
+  // Whole picolitres; the rest by chance, so that the mean is right.
+  const double chance = static_cast<double>(shared::unitFloat(shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(world.tick)))));
+  int64_t lost_pl = std::min(static_cast<int64_t>(lost + chance), drop.volume_pl);
+  if (drop.volume_pl - lost_pl < kLeastDrop_pl) lost_pl = drop.volume_pl;
+  if (lost_pl == drop.volume_pl) {
+    world.ledger.evaporated_pl += passed(LeakyKernel::evaporation, remove(slot));
+    return;
+  }
+  world.ledger.evaporated_pl += passed(LeakyKernel::evaporation, lost_pl);
+  drop.volume_pl -= lost_pl;
+  settle(drop);
+}
+
+uint64_t Drops::hash(uint64_t start) const {
+  uint64_t h = start;
+  const auto mix = [&h](uint64_t value) { h = (h ^ value) * 0x100000001b3ull + (h >> 29); };
+  for (const Drop& drop : slots_.items) {
+    mix(static_cast<uint64_t>(drop.volume_pl));
+    if (drop.volume_pl == 0) continue;
+    mix(std::bit_cast<uint64_t>(drop.place_m.x));
+    mix(std::bit_cast<uint64_t>(drop.place_m.y));
+    mix(std::bit_cast<uint32_t>(drop.velocity_mps.x) | static_cast<uint64_t>(std::bit_cast<uint32_t>(drop.velocity_mps.y)) << 32);
+    mix(std::bit_cast<uint32_t>(drop.base_radius_m) | static_cast<uint64_t>(drop.seed) << 32);
+  }
+  return h;
+}
+
+}  // namespace rg::glass

@@ -1,0 +1,105 @@
+// Drops on the glass: they stick, slide, merge, leave trails, run off, dry. Volumes are whole picolitres and only ever move from one place to another.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "glass/airflow.h"
+#include "glass/film_link.h"
+#include "glass/impact.h"
+#include "glass/ledger.h"
+#include "glass/pane_map.h"
+#include "glass/water.h"
+
+namespace rg::glass {
+
+struct Drop {
+  int64_t volume_pl = 0;         // 0: the slot is free
+  glm::dvec2 place_m{0.0};       // grid metres
+  glm::vec2 velocity_mps{0.0f};  // real, grid axes
+  glm::vec2 heading{1.0f, 0.0f};
+  float base_radius_m = 0.0f;    // real
+  float height_m = 0.0f;
+  float elongation = 1.0f;
+  float since_pearl_m = 0.0f;    // way since it last left a droplet behind
+  float age_s = 0.0f;
+  uint32_t seed = 0;
+  uint32_t life = 0;             // counts the drops that had this slot
+  int32_t next = -1;             // in its cell's list
+  int32_t texel = 0;
+  bool moving = false;
+  bool changed = false;          // has to be looked at for neighbours it touches
+};
+
+// What drops of a pane have in common during a tick.
+struct DropWorld {
+  const PaneMap& map;
+  const Surface& surface;
+  const ForceField& forces;
+  FilmLink& film;
+  Ledger& ledger;
+  uint64_t seed = 0;
+  uint32_t pane = 0;
+  int64_t tick = 0;
+  double humidity = 1.0;
+  double saturated_kg_m3 = 0.0;
+};
+
+class Drops {
+ public:
+  Drops(const PaneMap& map, const Surface& surface, uint32_t capacity);
+
+  uint32_t count() const { return live_; }
+  uint32_t capacity() const { return static_cast<uint32_t>(slots_.capacity_); }
+  int64_t volume_pl() const;  // summed afresh
+  const std::vector<Drop>& all() const { return slots_.items; }
+  void clear();
+
+  // A drop of this base; its contact angle is kept between receding and advancing by a wider or narrower base unless `as_told`. Returns its slot, or
+  // -1 when there is no room (nothing happened).
+  int add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed, bool as_told = false);
+  // A raindrop: a new drop, or water for the film where that is thick or slots run short.
+  void impact(const DropWorld& world, const Impact& impact);
+  // Water a drop ran over; goes to the film again when the drop is no more.
+  void give(const DropWorld& world, const Taker& taker, int64_t volume_pl);
+  // Removes a drop and says how much it was.
+  int64_t remove(int slot);
+
+  void move(const DropWorld& world);   // forces, sliding, trails, the pane's edge
+  void merge(const DropWorld& world);  // those that touch become one
+  void age(const DropWorld& world);    // evaporation, dissolving in film
+
+  uint64_t hash(uint64_t start) const;
+
+ private:
+  struct Slots {
+    std::vector<Drop> items;
+    std::vector<int32_t> free;
+    size_t capacity_ = 0;
+  };
+  void slide(const DropWorld& world, int slot);
+  void leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres);
+  void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres);
+  bool overEdge(const DropWorld& world, int slot);
+  int touching(const DropWorld& world, int slot) const;
+  int unite(const DropWorld& world, int a, int b);
+  void dry(const DropWorld& world, int slot);
+  void settle(Drop& drop) const;
+  void link(int slot);
+  void unlink(int slot);
+  size_t cellOf(glm::dvec2 place_m) const;
+
+  const PaneMap& map_;
+  const Surface& surface_;
+  Slots slots_;
+  std::vector<int32_t> cells_;  // first drop of each
+  glm::ivec2 cell_count_{0};
+  std::vector<int32_t> changed_;
+  uint32_t live_ = 0;
+  double shape_advancing_, shape_receding_;  // V / R^3 at these angles
+  double hold_per_m_;                        // retention for a metre of width, N/m
+  double largest_radius_m_ = 0.0;
+};
+
+}  // namespace rg::glass

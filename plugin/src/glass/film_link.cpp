@@ -1,0 +1,195 @@
+#include "glass/film_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "glass/water.h"
+
+namespace rg::glass {
+namespace {
+
+constexpr int64_t kMostToTexel_pl = 200'000'000;   // 0.2 mL: texels are 32-bit
+constexpr int64_t kMostToRidge_pl = 200'000'000;
+
+int64_t travellingIn(const FilmReport& report) {
+  int64_t sum = 0;
+  for (const shared::FilmTile& tile : report.tiles) sum += tile.event_pl;
+  for (const int taken : report.taken_pl) sum += taken;
+  return sum;
+}
+
+}  // namespace
+
+FilmLink::FilmLink(const PaneMap& map, Ledger& ledger)
+    : map_(map),
+      ledger_(ledger),
+      sums_(static_cast<size_t>(map.texelCount()), 0),
+      taken_in_(static_cast<size_t>(map.texelCount()), -1),
+      tile_thickness_m_(map.tileArea_m2().size(), 0.0f) {}
+
+void FilmLink::attach() {
+  attached_ = true;
+  clear_ = true;
+  first_step_ = next_step_;
+  last_reported_ = next_step_ - 1;
+}
+
+void FilmLink::detach() {
+  if (!attached_) return;
+  attached_ = false;
+  ledger_.drained_pl += film_pl_ + ridge_pl_ + travelling_pl();
+  clear();
+  first_step_ = next_step_;
+}
+
+void FilmLink::clear() {
+  for (const int texel : touched_) sums_[static_cast<size_t>(texel)] = 0;
+  touched_.clear();
+  takers_.clear();
+  order_ = {};
+  gathered_pl_ = 0;
+  outbox_.clear();
+  ordered_.clear();
+  reports_.clear();
+  report_takers_.clear();
+  std::fill(tile_thickness_m_.begin(), tile_thickness_m_.end(), 0.0f);
+  film_pl_ = ridge_pl_ = 0;
+  first_step_ = next_step_;
+  last_reported_ = next_step_ - 1;
+  clear_ = true;
+}
+
+void FilmLink::add(int texel, int64_t volume_pl) {
+  if (volume_pl <= 0) return;
+  if (!attached_) {
+    ledger_.drained_pl += volume_pl;
+    return;
+  }
+  volume_pl = passed(LeakyKernel::exchange, volume_pl);
+  int64_t& sum = sums_[static_cast<size_t>(texel)];
+  if (sum == 0) touched_.push_back(texel);
+  const int64_t fits = std::min(volume_pl, kMostToTexel_pl - sum);
+  sum += fits;
+  gathered_pl_ += fits;
+  ledger_.drained_pl += volume_pl - fits;  // a flood that no film holds
+}
+
+void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl) {
+  const double texel_m = map_.grid().texel_m;
+  const glm::ivec2 reach(glm::min(glm::ceil(radius_m / (metres * texel_m)), glm::dvec2(8.0)));
+  const glm::ivec2 middle(glm::floor(grid_m / texel_m));
+  std::array<int, 17 * 17> texels{};
+  size_t count = 0;
+  for (int y = middle.y - reach.y; y <= middle.y + reach.y; ++y) {
+    for (int x = middle.x - reach.x; x <= middle.x + reach.x; ++x) {
+      const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) * texel_m;
+      if (glm::length((place - grid_m) * metres) > radius_m) continue;
+      const int texel = map_.texelAt(place);
+      if (texel >= 0) texels[count++] = texel;
+    }
+  }
+  if (count == 0) {
+    const int texel = map_.texelAt(grid_m);
+    if (texel >= 0) add(texel, volume_pl);
+    else ledger_.drained_pl += volume_pl;
+    return;
+  }
+  const int64_t each = volume_pl / static_cast<int64_t>(count);
+  for (size_t i = 0; i < count; ++i) add(texels[i], i == 0 ? volume_pl - each * static_cast<int64_t>(count - 1) : each);
+}
+
+void FilmLink::take(int texel, double share, uint32_t slot, uint32_t life) {
+  if (!attached_ || takers_.size() >= kMostTakes) return;
+  int64_t& taken_in = taken_in_[static_cast<size_t>(texel)];
+  if (taken_in == next_step_) return;
+  taken_in = next_step_;
+  order_.takes.push_back({texel, static_cast<int>(std::clamp(share, 0.0, 1.0) * 65536.0)});
+  takers_.push_back({slot, life, texel});
+}
+
+void FilmLink::addToRidge(int segment, int64_t volume_pl) {
+  if (!attached_) {
+    ledger_.wiped_pl += volume_pl;
+    return;
+  }
+  const int64_t fits = std::min(volume_pl, kMostToRidge_pl);
+  order_.ridge_adds.push_back({segment, static_cast<int>(fits)});
+  gathered_pl_ += fits;
+  ledger_.wiped_pl += volume_pl - fits;  // a blade throws off what it cannot hold
+}
+
+void FilmLink::sweep(const SweepOrder& sweep) {
+  if (attached_ && sweep.count > 0) order_.sweeps.push_back(sweep);
+}
+
+void FilmLink::leave(int segment, const std::vector<int>& texels) {
+  if (!attached_) return;
+  order_.leaves.push_back({segment, static_cast<int>(order_.leave_texels.size()), static_cast<int>(texels.size()), 0});
+  order_.leave_texels.insert(order_.leave_texels.end(), texels.begin(), texels.end());
+}
+
+void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared::FilmStepInfo& info) {
+  next_step_ = step + 1;
+  if (!attached_) return;
+  for (const int texel : touched_) {
+    order_.adds.push_back({texel, static_cast<int>(sums_[static_cast<size_t>(texel)])});
+    sums_[static_cast<size_t>(texel)] = 0;
+  }
+  touched_.clear();
+  order_.step = step;
+  order_.clear = std::exchange(clear_, false);
+  order_.drive = std::move(drive);
+  order_.info = info;
+  order_.ordered_pl = std::exchange(gathered_pl_, 0);
+  ordered_.push_back({step, order_.ordered_pl, std::exchange(takers_, {})});
+  outbox_.push_back(std::exchange(order_, {}));
+}
+
+std::vector<FilmOrder> FilmLink::fetch() { return std::exchange(outbox_, {}); }
+
+void FilmLink::deliver(FilmReport&& report) {
+  if (!attached_ || ordered_.empty() || ordered_.front().step != report.step) return;  // of a film that is no more
+  report_takers_.push_back(std::move(ordered_.front().takers));
+  ordered_.pop_front();
+  last_reported_ = report.step;
+  film_pl_ = 0;
+  for (const shared::FilmTile& tile : report.tiles) {
+    film_pl_ += static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
+    ledger_.drained_pl += tile.drained_pl;
+    ledger_.blown_pl += tile.blown_pl;
+    ledger_.evaporated_pl += tile.evaporated_pl;
+  }
+  ledger_.wiped_pl += report.wiped_pl;
+  ridge_pl_ = report.ridge_pl;
+  reports_.push_back(std::move(report));
+}
+
+bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers) {
+  if (reports_.empty() || reports_.front().step != step) return false;
+  report = std::move(reports_.front());
+  takers = std::move(report_takers_.front());
+  reports_.pop_front();
+  report_takers_.pop_front();
+  for (size_t i = 0; i < report.tiles.size(); ++i) {
+    const shared::FilmTile& tile = report.tiles[i];
+    const int64_t volume_pl = static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
+    const float area_m2 = map_.tileArea_m2()[i];
+    tile_thickness_m_[i] = area_m2 > 0.0f ? static_cast<float>(cubicMetres(volume_pl)) / area_m2 : 0.0f;
+  }
+  return true;
+}
+
+double FilmLink::thickness_m(int texel) const {
+  const int x = texel % map_.grid().size.x / shared::kTileSize, y = texel / map_.grid().size.x / shared::kTileSize;
+  return static_cast<double>(tile_thickness_m_[static_cast<size_t>(y * map_.tileCount().x + x)]);
+}
+
+int64_t FilmLink::travelling_pl() const {
+  int64_t sum = gathered_pl_;
+  for (const Ordered& ordered : ordered_) sum += ordered.ordered_pl;
+  for (const FilmReport& report : reports_) sum += travellingIn(report);
+  return sum;
+}
+
+}  // namespace rg::glass

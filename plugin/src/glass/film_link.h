@@ -1,0 +1,81 @@
+// The CPU's end of the film: gathers what ticks give to it and ask of it into one order a step, and says where the film is thick enough to swallow
+// drops. Without a film (none attached, or a pane that has none) water meant for it runs off: it is booked as drained.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "glass/film_order.h"
+#include "glass/ledger.h"
+#include "glass/pane_map.h"
+
+namespace rg::glass {
+
+// Who ran over a texel.
+struct Taker {
+  uint32_t slot = 0;
+  uint32_t life = 0;  // of the slot, see Drop
+  int texel = 0;
+};
+
+class FilmLink {
+ public:
+  FilmLink(const PaneMap& map, Ledger& ledger);
+
+  bool attached() const { return attached_; }
+  void attach();
+  void detach();  // what is on the film or under way is booked as drained
+
+  // Gives water to a texel, or evenly to those within a radius (real metres, `metres` real for a grid metre). Places off the pane get none of it.
+  void add(int texel, int64_t volume_pl);
+  void spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl);
+  // Asks for a share of what is on a texel; the report brings it. The first to ask in a step gets it.
+  void take(int texel, double share, uint32_t slot, uint32_t life);
+  void addToRidge(int segment, int64_t volume_pl);
+  void sweep(const SweepOrder& sweep);
+  // A ridge's water goes to these texels; to none: off the glass.
+  void leave(int segment, const std::vector<int>& texels);
+
+  // Closes the step's order and queues it for the GPU.
+  void close(int64_t step, std::vector<shared::vec4> drive, const shared::FilmStepInfo& info);
+  std::vector<FilmOrder> fetch();
+
+  // Reports come in order and wait here for the tick that uses them.
+  void deliver(FilmReport&& report);
+  bool reported(int64_t step) const { return !attached_ || step < first_step_ || step <= last_reported_; }
+  // The report to be used now, with its takers; false: none.
+  bool use(int64_t step, FilmReport& report, std::vector<Taker>& takers);
+
+  double thickness_m(int texel) const;  // mean over the tile, as last used
+
+  int64_t film_pl() const { return film_pl_; }
+  int64_t ridge_pl() const { return ridge_pl_; }
+  int64_t travelling_pl() const;
+  void clear();  // dry, at the next step
+
+ private:
+  struct Ordered {
+    int64_t step, ordered_pl;
+    std::vector<Taker> takers;
+  };
+  const PaneMap& map_;
+  Ledger& ledger_;
+  bool attached_ = false;
+  bool clear_ = true;
+  int64_t first_step_ = 0, last_reported_ = -1, next_step_ = 0;
+  FilmOrder order_;
+  std::vector<int64_t> sums_;       // given to a texel in this step
+  std::vector<int> touched_;        // texels with a sum
+  std::vector<int64_t> taken_in_;   // the step in which somebody asked for a texel
+  std::vector<Taker> takers_;
+  int64_t gathered_pl_ = 0;
+  std::vector<FilmOrder> outbox_;
+  std::deque<Ordered> ordered_;     // not yet reported
+  std::deque<FilmReport> reports_;  // not yet used
+  std::deque<std::vector<Taker>> report_takers_;
+  std::vector<float> tile_thickness_m_;
+  int64_t film_pl_ = 0, ridge_pl_ = 0;
+};
+
+}  // namespace rg::glass

@@ -1,0 +1,280 @@
+#include "glass/pane_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace rg::glass {
+namespace {
+
+constexpr int kMostTexels = 4096;          // along a side
+constexpr double kLeastArea_m2 = 1e-12;    // of a triangle; a smaller one is a mistake of the mesh
+
+[[noreturn]] void refusePane(const PaneInfo& info, const std::string& why) {
+  throw std::invalid_argument("pane '" + info.name + "': " + why);
+}
+
+struct Triangle {
+  std::array<glm::dvec3, 3> p;
+  std::array<glm::dvec2, 3> uv;
+  glm::dvec3 normal_area() const { return 0.5 * glm::cross(p[1] - p[0], p[2] - p[0]); }
+  double uvArea() const {
+    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
+    return 0.5 * (a.x * b.y - a.y * b.x);
+  }
+  // dP/du and dP/dv
+  std::pair<glm::dvec3, glm::dvec3> derivatives() const {
+    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
+    const double inv = 1.0 / (2.0 * uvArea());
+    const glm::dvec3 e = p[1] - p[0], f = p[2] - p[0];
+    return {(e * b.y - f * a.y) * inv, (f * a.x - e * b.x) * inv};
+  }
+};
+
+Triangle triangleOf(const PaneInfo& info, size_t t) {
+  Triangle out;
+  for (size_t k = 0; k < 3; ++k) {
+    const uint32_t i = info.indices[3 * t + k];
+    out.p[k] = info.positions_m[i];
+    out.uv[k] = info.uvs[i];
+  }
+  return out;
+}
+
+bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+void checkMesh(const PaneInfo& info) {
+  if (info.positions_m.size() < 3) refusePane(info, "has fewer than three vertices");
+  if (info.uvs.size() != info.positions_m.size()) refusePane(info, "has no uv for each vertex");
+  if (info.indices.empty() || info.indices.size() % 3 != 0) refusePane(info, "has no whole number of triangles");
+  if (!(info.texel_m >= 0.5e-3 && info.texel_m <= 20e-3)) refusePane(info, "texel size must lie in 0.5 .. 20 mm");
+  for (const uint32_t i : info.indices) {
+    if (i >= info.positions_m.size()) refusePane(info, "index " + std::to_string(i) + " is past its vertices");
+  }
+  for (size_t i = 0; i < info.positions_m.size(); ++i) {
+    if (!finite(info.positions_m[i]) || !finite(info.uvs[i])) refusePane(info, "vertex " + std::to_string(i) + " is not finite");
+  }
+  double uv_area = 0.0;
+  for (size_t t = 0; t < info.indices.size() / 3; ++t) uv_area += std::abs(triangleOf(info, t).uvArea());
+  if (uv_area <= 0.0) refusePane(info, "its uvs have no area");
+  for (size_t t = 0; t < info.indices.size() / 3; ++t) {
+    const Triangle triangle = triangleOf(info, t);
+    if (glm::length(triangle.normal_area()) < kLeastArea_m2) refusePane(info, "triangle " + std::to_string(t) + " has no area");
+    if (std::abs(triangle.uvArea()) < 1e-12 * uv_area) refusePane(info, "triangle " + std::to_string(t) + " has no area in uv");
+  }
+}
+
+}  // namespace
+
+PaneMap::PaneMap(const PaneInfo& info) {
+  checkMesh(info);
+  layGrid(info);
+  rasterise(info);
+  findDirections();
+  makeNodes();
+  makeRegions();
+}
+
+// Scales uv so that a grid metre is a metre in the mean square over the glass.
+void PaneMap::layGrid(const PaneInfo& info) {
+  glm::dvec2 square{0.0}, least{1e300}, most{-1e300};
+  double area = 0.0;
+  for (size_t t = 0; t < info.indices.size() / 3; ++t) {
+    const Triangle triangle = triangleOf(info, t);
+    const auto [du, dv] = triangle.derivatives();
+    const double a = glm::length(triangle.normal_area());
+    square += a * glm::dvec2(glm::dot(du, du), glm::dot(dv, dv));
+    area += a;
+    for (const glm::dvec2& uv : triangle.uv) {
+      least = glm::min(least, uv);
+      most = glm::max(most, uv);
+    }
+  }
+  grid_.texel_m = info.texel_m;
+  grid_.metres_per_uv = glm::sqrt(square / area);
+  const glm::dvec2 texels = glm::ceil((most - least) * grid_.metres_per_uv / info.texel_m - 1e-6);
+  if (!(texels.x <= kMostTexels && texels.y <= kMostTexels)) refusePane(info, "needs more than 4096 texels along a side");
+  grid_.size = glm::ivec2(texels) + 2;
+  grid_.uv_origin = least - info.texel_m / grid_.metres_per_uv;
+  texels_.resize(static_cast<size_t>(texelCount()));
+}
+
+void PaneMap::rasterise(const PaneInfo& info) {
+  constexpr double kOnEdge = 1e-7;    // of a barycentric coordinate: rounding on a shared edge
+  constexpr double kOverlap = 1e-3;   // clearly inside of two triangles
+  std::vector<uint8_t> clear(texels_.size(), 0);
+  for (size_t t = 0; t < info.indices.size() / 3; ++t) {
+    Triangle triangle = triangleOf(info, t);
+    const auto [du, dv] = triangle.derivatives();
+    for (glm::dvec2& uv : triangle.uv) uv = (uv - grid_.uv_origin) * grid_.metres_per_uv / grid_.texel_m;
+    const glm::dvec3 normal_area = triangle.normal_area();
+    const glm::dvec2 low = glm::min(glm::min(triangle.uv[0], triangle.uv[1]), triangle.uv[2]);
+    const glm::dvec2 high = glm::max(glm::max(triangle.uv[0], triangle.uv[1]), triangle.uv[2]);
+    const glm::dvec2 e = triangle.uv[1] - triangle.uv[0], f = triangle.uv[2] - triangle.uv[0];
+    const double inv = 1.0 / (e.x * f.y - e.y * f.x);
+    for (int y = std::max(1, static_cast<int>(low.y - 0.5)); y <= std::min(grid_.size.y - 2, static_cast<int>(high.y)); ++y) {
+      for (int x = std::max(1, static_cast<int>(low.x - 0.5)); x <= std::min(grid_.size.x - 2, static_cast<int>(high.x)); ++x) {
+        const glm::dvec2 d = glm::dvec2(x + 0.5, y + 0.5) - triangle.uv[0];
+        const double b = (d.x * f.y - d.y * f.x) * inv, c = (e.x * d.y - e.y * d.x) * inv;
+        const double margin = std::min({1.0 - b - c, b, c});
+        if (margin < -kOnEdge) continue;
+        const size_t i = static_cast<size_t>(y * grid_.size.x + x);
+        if (margin > kOverlap) {
+          if (clear[i] != 0) refusePane(info, "its uvs overlap at (" + std::to_string((triangle.uv[0].x + d.x) * grid_.texel_m / grid_.metres_per_uv.x + grid_.uv_origin.x) + ", " + std::to_string((triangle.uv[0].y + d.y) * grid_.texel_m / grid_.metres_per_uv.y + grid_.uv_origin.y) + ")");
+          clear[i] = 1;
+        }
+        PaneTexel& texel = texels_[i];
+        texel.position_m = glm::vec3(triangle.p[0] * (1.0 - b - c) + triangle.p[1] * b + triangle.p[2] * c);
+        texel.normal = glm::vec3(glm::normalize(normal_area));
+        texel.along_x = glm::vec3(du / grid_.metres_per_uv.x);
+        texel.along_y = glm::vec3(dv / grid_.metres_per_uv.y);
+        texel.area_m2 = glm::length(glm::cross(texel.along_x, texel.along_y)) * static_cast<float>(grid_.texel_m * grid_.texel_m);
+      }
+    }
+  }
+  for (const PaneTexel& texel : texels_) area_m2_ += static_cast<double>(texel.area_m2);
+  if (area_m2_ <= 0.0) refusePane(info, "is smaller than a texel");
+}
+
+// Right and up at the pane's middle, and from them glass metres.
+void PaneMap::findDirections() {
+  glm::dvec3 normal{0.0}, along_x{0.0}, along_y{0.0};
+  glm::vec3 low{1e30f}, high{-1e30f};
+  glm::dvec2 grid_low{1e30}, grid_high{-1e30};
+  for (int i = 0; i < texelCount(); ++i) {
+    if (!inside(i)) continue;
+    const PaneTexel& t = texel(i);
+    const double area = static_cast<double>(t.area_m2);
+    normal += area * glm::dvec3(t.normal);
+    along_x += area * glm::dvec3(t.along_x);
+    along_y += area * glm::dvec3(t.along_y);
+    low = glm::min(low, t.position_m);
+    high = glm::max(high, t.position_m);
+    grid_low = glm::min(grid_low, middleOf(i));
+    grid_high = glm::max(grid_high, middleOf(i));
+  }
+  middle_m_ = 0.5 * (grid_low + grid_high);
+  centre_m_ = 0.5f * (low + high);
+  for (const PaneTexel& t : texels_) {
+    if (t.area_m2 > 0.0f) radius_m_ = std::max(radius_m_, glm::distance(t.position_m, centre_m_));
+  }
+  normal = glm::normalize(normal);
+  along_x /= area_m2_;
+  along_y /= area_m2_;
+  const glm::dvec3 vertical = std::abs(normal.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 up = glm::normalize(vertical - glm::dot(vertical, normal) * normal);
+  const glm::dvec3 right = glm::cross(normal, up);  // seen from inside, looking out along the normal
+  glassFromGrid_ = glm::dmat2(glm::dot(along_x, right), glm::dot(along_x, up), glm::dot(along_y, right), glm::dot(along_y, up));
+  gridFromGlass_ = glm::inverse(glassFromGrid_);
+  up_ = glm::normalize(gridFromGlass_ * glm::dvec2(0.0, 1.0));
+}
+
+int PaneMap::texelAt(glm::dvec2 grid_m) const {
+  const int x = static_cast<int>(std::floor(grid_m.x / grid_.texel_m)), y = static_cast<int>(std::floor(grid_m.y / grid_.texel_m));
+  if (x < 0 || y < 0 || x >= grid_.size.x || y >= grid_.size.y) return -1;
+  const int index = y * grid_.size.x + x;
+  return inside(index) ? index : -1;
+}
+
+glm::dvec2 PaneMap::middleOf(int index) const {
+  return (glm::dvec2(index % grid_.size.x, index / grid_.size.x) + 0.5) * grid_.texel_m;
+}
+
+std::optional<glm::dvec3> PaneMap::vehicleFromGrid(glm::dvec2 grid_m) const {
+  const int index = texelAt(grid_m);
+  if (index < 0) return std::nullopt;
+  const glm::dvec2 d = grid_m - middleOf(index);
+  const PaneTexel& t = texel(index);
+  return glm::dvec3(t.position_m) + d.x * glm::dvec3(t.along_x) + d.y * glm::dvec3(t.along_y);
+}
+
+glm::dvec2 PaneMap::alongGlass(const PaneNode& node, const glm::dvec3& v) {
+  const double xx = glm::dot(node.along_x, node.along_x), xy = glm::dot(node.along_x, node.along_y), yy = glm::dot(node.along_y, node.along_y);
+  const double vx = glm::dot(v, node.along_x), vy = glm::dot(v, node.along_y);
+  const double det = xx * yy - xy * xy;
+  return {(vx * yy - vy * xy) / det * std::sqrt(xx), (vy * xx - vx * xy) / det * std::sqrt(yy)};
+}
+
+// A node takes the mean of the glass within a tile around it; one without glass takes that of the nearest nodes that have some.
+void PaneMap::makeNodes() {
+  constexpr int kTile = shared::kTileSize;
+  nodes_across_ = (grid_.size + (kTile - 1)) / kTile + 1;
+  const auto count = static_cast<size_t>(nodes_across_.x * nodes_across_.y);
+  nodes_.assign(count, {});
+  std::vector<double> weight(count, 0.0);
+  tile_area_m2_.assign(static_cast<size_t>(tileCount().x * tileCount().y), 0.0f);
+  std::vector<PaneNode> sums(count, PaneNode{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), 0.0, 0.0});
+  glm::dvec2 glass_low{1e30}, glass_high{-1e30};
+  for (int i = 0; i < texelCount(); ++i) {
+    if (!inside(i)) continue;
+    const PaneTexel& t = texel(i);
+    const int x = i % grid_.size.x, y = i / grid_.size.x;
+    const size_t n = static_cast<size_t>((y + kTile / 2) / kTile * nodes_across_.x + (x + kTile / 2) / kTile);
+    tile_area_m2_[static_cast<size_t>(y / kTile * tileCount().x + x / kTile)] += t.area_m2;
+    sums[n].position_m += glm::dvec3(t.position_m);
+    sums[n].normal += glm::dvec3(t.normal);
+    sums[n].along_x += glm::dvec3(t.along_x);
+    sums[n].along_y += glm::dvec3(t.along_y);
+    weight[n] += 1.0;
+    const glm::dvec2 glass = glassFromGrid(middleOf(i));
+    glass_low = glm::min(glass_low, glass);
+    glass_high = glm::max(glass_high, glass);
+  }
+  for (bool missing = true; missing;) {
+    missing = false;
+    const std::vector<double> known = weight;
+    for (int y = 0; y < nodes_across_.y; ++y) {
+      for (int x = 0; x < nodes_across_.x; ++x) {
+        const size_t n = static_cast<size_t>(y * nodes_across_.x + x);
+        if (known[n] > 0.0) continue;
+        missing = true;
+        for (const glm::ivec2 d : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+          const glm::ivec2 q = glm::ivec2(x, y) + d;
+          if (q.x < 0 || q.y < 0 || q.x >= nodes_across_.x || q.y >= nodes_across_.y) continue;
+          const size_t m = static_cast<size_t>(q.y * nodes_across_.x + q.x);
+          if (known[m] <= 0.0) continue;
+          sums[n].position_m += sums[m].position_m / known[m];
+          sums[n].normal += sums[m].normal / known[m];
+          sums[n].along_x += sums[m].along_x / known[m];
+          sums[n].along_y += sums[m].along_y / known[m];
+          weight[n] += 1.0;
+        }
+      }
+    }
+  }
+  for (size_t n = 0; n < count; ++n) {
+    PaneNode& node = nodes_[n];
+    node.position_m = sums[n].position_m / weight[n];
+    node.normal = glm::normalize(sums[n].normal);
+    node.along_x = sums[n].along_x / weight[n];
+    node.along_y = sums[n].along_y / weight[n];
+    const glm::dvec2 place = glm::dvec2(static_cast<int>(n) % nodes_across_.x, static_cast<int>(n) / nodes_across_.x) * (kTile * grid_.texel_m);
+    const glm::dvec2 share = (glassFromGrid(place) - glass_low) / (glass_high - glass_low + 1e-9);
+    node.across = std::clamp(2.0 * share.x - 1.0, -1.0, 1.0);
+    node.height = std::clamp(share.y, 0.0, 1.0);
+    const double area = glm::length(glm::cross(node.along_x, node.along_y)) * grid_.texel_m * grid_.texel_m;
+    node_metric_.emplace_back(static_cast<float>(glm::length(node.along_x) * grid_.texel_m), static_cast<float>(glm::length(node.along_y) * grid_.texel_m),
+                              static_cast<float>(1.0 / area), 0.0f);
+  }
+}
+
+void PaneMap::makeRegions() {
+  for (int i = 0; i < texelCount(); ++i) {
+    if (!inside(i)) continue;
+    const int x = (i % grid_.size.x) * kRegionsAcross / grid_.size.x, y = (i / grid_.size.x) * kRegionsAcross / grid_.size.y;
+    const size_t r = static_cast<size_t>(y * kRegionsAcross + x);
+    regions_[r].push_back(i);
+    region_area_[r] += static_cast<double>(texel(i).area_m2) * glm::dvec3(texel(i).normal);
+  }
+}
+
+std::optional<glm::dvec3> PaneMap::regionCentre(int region) const {
+  const std::vector<int>& texels = regionTexels(region);
+  if (texels.empty()) return std::nullopt;
+  glm::dvec3 sum{0.0};
+  for (const int i : texels) sum += glm::dvec3(texel(i).position_m);
+  return sum / static_cast<double>(texels.size());
+}
+
+}  // namespace rg::glass

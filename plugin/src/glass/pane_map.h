@@ -1,0 +1,102 @@
+// Where on the pane is what: a grid of cells with positions, directions and areas in metres, made from any uv-mapped mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "glass/pane.h"
+
+namespace rg::glass {
+
+// Grid metres: the uv chart scaled so that it has metres on the average, x along u, y along v; the local metric does the rest.
+struct PaneGrid {
+  glm::ivec2 size{0};             // texels; a rim of one texel lies off the pane
+  double texel_m = 0.0;           // grid metres
+  glm::dvec2 uv_origin{0.0};      // of the corner of texel (0, 0)
+  glm::dvec2 metres_per_uv{1.0};
+};
+
+struct PaneTexel {
+  glm::vec3 position_m{0.0f};  // vehicle frame, as the rest
+  glm::vec3 normal{0.0f};      // unit, outward
+  glm::vec3 along_x{0.0f};     // change of position for one grid metre
+  glm::vec3 along_y{0.0f};
+  float area_m2 = 0.0f;        // real; 0: off the pane
+};
+
+// A corner of tiles: directions vary little over a tile, so fields are made here and are linear between.
+struct PaneNode {
+  glm::dvec3 position_m{0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};
+  glm::dvec3 along_x{1.0, 0.0, 0.0};
+  glm::dvec3 along_y{0.0, 1.0, 0.0};
+  double across = 0.0;  // -1 at the pane's left .. 1 at its right, seen from inside
+  double height = 0.0;  // 0 at its lower edge .. 1 at its upper
+};
+
+class PaneMap {
+ public:
+  // Throws std::invalid_argument naming the pane: uvs missing, without area or overlapping; degenerate triangles; indices out of range; NaN;
+  // smaller than a texel; more than 4096 texels along a side.
+  explicit PaneMap(const PaneInfo& info);
+
+  const PaneGrid& grid() const { return grid_; }
+  int texelCount() const { return grid_.size.x * grid_.size.y; }
+  const PaneTexel& texel(int index) const { return texels_[static_cast<size_t>(index)]; }
+  bool inside(int index) const { return texel(index).area_m2 > 0.0f; }
+  double area_m2() const { return area_m2_; }
+
+  // Index of the texel at a place, or -1 where it is off the pane.
+  int texelAt(glm::dvec2 grid_m) const;
+  glm::dvec2 middleOf(int index) const;
+
+  // Glass metres: right of the pane's middle seen from inside, and up. Exact on a flat pane; on a curved one distances shrink towards its rim.
+  glm::dvec2 gridFromGlass(glm::dvec2 glass_m) const { return middle_m_ + gridFromGlass_ * glass_m; }
+  glm::dvec2 glassFromGrid(glm::dvec2 grid_m) const { return glassFromGrid_ * (grid_m - middle_m_); }
+  // Vehicle position of a place on the pane; none off it.
+  std::optional<glm::dvec3> vehicleFromGrid(glm::dvec2 grid_m) const;
+  glm::dvec2 up() const { return up_; }  // unit, grid axes: from the lower to the upper edge
+
+  // Corners of tiles, row by row.
+  glm::ivec2 nodeCount() const { return nodes_across_; }
+  glm::ivec2 tileCount() const { return nodes_across_ - 1; }
+  const std::vector<PaneNode>& nodes() const { return nodes_; }
+  const std::vector<shared::vec4>& nodeMetric() const { return node_metric_; }  // metres for a texel along x, y; 1/area in 1/m^2; 0
+  const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }
+  // A vector of the vehicle's frame as its components along the glass, grid axes, in its own unit.
+  static glm::dvec2 alongGlass(const PaneNode& node, const glm::dvec3& v);
+
+  // Regions for shelter, see kRegions. None where the region has no glass.
+  std::optional<glm::dvec3> regionCentre(int region) const;
+  const std::vector<int>& regionTexels(int region) const { return regions_[static_cast<size_t>(region)]; }
+  // Outward area vector: the flux of a stream that meets all of it is -v . this.
+  const glm::dvec3& regionArea_m2(int region) const { return region_area_[static_cast<size_t>(region)]; }
+  glm::vec3 centre_m() const { return centre_m_; }
+  float radius_m() const { return radius_m_; }
+
+ private:
+  void layGrid(const PaneInfo& info);
+  void rasterise(const PaneInfo& info);
+  void findDirections();
+  void makeNodes();
+  void makeRegions();
+
+  PaneGrid grid_;
+  std::vector<PaneTexel> texels_;
+  double area_m2_ = 0.0;
+  glm::dvec2 middle_m_{0.0}, up_{0.0, 1.0};
+  glm::dmat2 gridFromGlass_{1.0}, glassFromGrid_{1.0};
+  glm::ivec2 nodes_across_{0};
+  std::vector<PaneNode> nodes_;
+  std::vector<shared::vec4> node_metric_;
+  std::vector<float> tile_area_m2_;
+  std::array<std::vector<int>, kRegions> regions_;
+  std::array<glm::dvec3, kRegions> region_area_{};
+  glm::vec3 centre_m_{0.0f};
+  float radius_m_ = 0.0f;
+};
+
+}  // namespace rg::glass

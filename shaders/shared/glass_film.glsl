@@ -1,0 +1,122 @@
+// What one film step does to a texel, from whole picolitres to whole picolitres: taken here, given there, so water is neither made nor lost in any
+// order. Runs in shaders/glass/film_step.comp, and in C++ for tests.
+#ifndef RG_SHARED_GLASS_FILM_GLSL
+#define RG_SHARED_GLASS_FILM_GLSL
+#include "shared/compat.glsl"
+#include "shared/glass_types.glsl"
+#include "shared/hash.glsl"
+RG_SHARED_BEGIN
+
+RG_CONST float kFilmStep_s = 1.0f / 60.0f;
+RG_CONST float kOverfull_m = 300.0e-6f;      // a thicker film is no film: the rest goes to the drops
+RG_CONST float kNusselt_per_m_s = 1000.0f / (3.0f * 1.0e-3f); // rho / (3 mu)
+RG_CONST float kShear_per_pa_s = 1.0f / (2.0f * 1.0e-3f);     // 1 / (2 mu)
+
+
+// What all texels of a step share.
+struct FilmStepInfo {
+  int columns;
+  int rows;
+  uint step;             // low bits of its number, for what is random
+  uint pane;
+  float up_x;            // unit, grid axes: to the upper edge
+  float up_y;
+  float pin_m;           // see Surface in glass/water.h
+  float front_m;
+  float rupture_m;
+  float rupture_chance;  // of a texel in a step
+  float evaporation_mps; // thickness lost per second
+  int drops_allowed;     // 0: nothing is given to drops
+};
+RG_SIZE(FilmStepInfo, 48)
+
+struct FilmOutflow {
+  int x_pl; // out of the texel along x: > 0 into x + 1, < 0 into x - 1
+  int y_pl;
+};
+
+RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
+
+// Field between the corners of a tile. `f` in 0..1.
+RG_FN vec4 betweenNodes(RG_IN(vec4) a, RG_IN(vec4) b, RG_IN(vec4) c, RG_IN(vec4) d, vec2 f) {
+  vec4 low = a + (b - a) * f.x;
+  vec4 high = c + (d - c) * f.x;
+  return low + (high - low) * f.y;
+}
+
+// Mean velocity q / h of a film: Nusselt 1916, q = rho g h^3 / (3 mu), and a wind's shear on its surface, q = tau h^2 / (2 mu).
+RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) {
+  return vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m) + vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m);
+}
+
+// Share of its water a texel gives in a step for a velocity of `courant` cells in a step. Up to 1/3 as it is: there the waves, three times as fast,
+// go one cell. Beyond, the flux of a draining film, c ~ V^2, goes on along its tangent, so that waves keep to one cell; never more than half.
+RG_FN float keptToOneCell(float courant) {
+  if (courant <= 1.0f / 3.0f) return courant;
+  return min(1.0f - (2.0f / 3.0f) * sqrt(1.0f / (3.0f * courant)), 0.5f);
+}
+
+RG_FN FilmOutflow filmOutflow(int volume_pl, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+  FilmOutflow flow;
+  flow.x_pl = 0;
+  flow.y_pl = 0;
+  if (volume_pl <= 0) return flow;
+  float h_m = thickness_m(volume_pl, metric);
+  if (h_m < info.pin_m) return flow;
+  vec2 u = filmVelocity(h_m, drive);
+  float cx = u.x * kFilmStep_s / metric.x;
+  float cy = u.y * kFilmStep_s / metric.y;
+  float courant = abs(cx) + abs(cy);
+  if (courant <= 0.0f) return flow;
+  float scale = float(volume_pl) * (keptToOneCell(courant) / courant);
+  flow.x_pl = int(floor(cx * scale + 0.5f));
+  flow.y_pl = int(floor(cy * scale + 0.5f));
+  return flow;
+}
+
+// How thick a film must be to run onto this texel when it is dry: glass is not the same everywhere, so fronts turn into fingers.
+RG_FN float frontThickness_m(uint texel, RG_IN(FilmStepInfo) info) { return info.front_m * (0.5f + unitFloat(pcg(texel ^ info.pane))); }
+
+RG_FN bool wetTexel(int volume_pl, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) { return thickness_m(volume_pl, metric) >= info.pin_m; }
+
+// Water passes from `from` into `to` unless that is dry and the film too thin for it.
+RG_FN bool passesFront(int from_pl, int to_pl, uint to_texel, RG_IN(vec4) from_metric, RG_IN(vec4) to_metric, RG_IN(FilmStepInfo) info) {
+  if (to_pl < 0) return true; // over the pane's edge
+  if (wetTexel(to_pl, to_metric, info)) return true;
+  return thickness_m(from_pl, from_metric) >= frontThickness_m(to_texel, info);
+}
+
+// Surface tension between neighbours, out of a into b; the same with a minus sign from b's side. Never more than an eighth of what is there.
+RG_FN int levelled_pl(int a_pl, int b_pl, bool a_wet, bool b_wet) {
+  if (!a_wet || !b_wet) return 0;
+  int difference = a_pl - b_pl;
+  int size = min(abs(difference) >> 5, (difference > 0 ? a_pl : b_pl) >> 3);
+  return difference > 0 ? size : -size;
+}
+
+// Whole picolitres out of a rate: the rest by chance, so that the mean is right.
+RG_FN int evaporated_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+  float wish = info.evaporation_mps * kFilmStep_s / (metric.z * kPicolitre_m3);
+  int whole = int(floor(wish + unitFloat(pcg(texel + pcg(info.step ^ info.pane)))));
+  return max(min(volume_pl, whole), 0);
+}
+
+// What a texel would give to the drops: what is too thick for a film, or all of a thin one that breaks.
+RG_FN int offered_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+  if (volume_pl <= 0 || info.drops_allowed == 0) return 0;
+  float h_m = thickness_m(volume_pl, metric);
+  if (h_m > kOverfull_m) return volume_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
+  if (h_m < info.pin_m || h_m > info.rupture_m) return 0;
+  return unitFloat(pcg(pcg(texel ^ info.pane) + info.step)) < info.rupture_chance ? volume_pl : 0;
+}
+
+// share / 65536 of a volume, without 64-bit numbers.
+RG_FN int shareOf(int volume_pl, int share_65536) {
+  if (volume_pl <= 0) return 0;
+  uint v = uint(volume_pl);
+  uint s = uint(min(max(share_65536, 0), 65536));
+  return int((v >> 16u) * s + (((v & 0xffffu) * s) >> 16u));
+}
+
+RG_SHARED_END
+#endif
