@@ -30,8 +30,11 @@ struct FilmStepInfo {
 };
 RG_SIZE(FilmStepInfo, 48)
 
-struct FilmOutflow {
-  int x_pl; // out of the texel along x: > 0 into x + 1, < 0 into x - 1
+// A texel as its neighbours see it.
+struct FilmCell {
+  int volume_pl; // -1: off the pane
+  float h_m;
+  int x_pl;      // what it wants to give along x: > 0 to x + 1, < 0 to x - 1
   int y_pl;
 };
 
@@ -56,42 +59,47 @@ RG_FN float keptToOneCell(float courant) {
   return min(1.0f - (2.0f / 3.0f) * sqrt(1.0f / (3.0f * courant)), 0.5f);
 }
 
-RG_FN FilmOutflow filmOutflow(int volume_pl, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
-  FilmOutflow flow;
-  flow.x_pl = 0;
-  flow.y_pl = 0;
-  if (volume_pl <= 0) return flow;
-  float h_m = thickness_m(volume_pl, metric);
-  if (h_m < info.pin_m) return flow;
-  vec2 u = filmVelocity(h_m, drive);
+RG_FN FilmCell filmCell(int volume_pl, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+  FilmCell cell;
+  cell.volume_pl = volume_pl;
+  cell.h_m = thickness_m(volume_pl, metric);
+  cell.x_pl = 0;
+  cell.y_pl = 0;
+  if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
+  vec2 u = filmVelocity(cell.h_m, drive);
   float cx = u.x * kFilmStep_s / metric.x;
   float cy = u.y * kFilmStep_s / metric.y;
   float courant = abs(cx) + abs(cy);
-  if (courant <= 0.0f) return flow;
+  if (courant <= 0.0f) return cell;
   float scale = float(volume_pl) * (keptToOneCell(courant) / courant);
-  flow.x_pl = int(floor(cx * scale + 0.5f));
-  flow.y_pl = int(floor(cy * scale + 0.5f));
-  return flow;
+  cell.x_pl = int(floor(cx * scale + 0.5f));
+  cell.y_pl = int(floor(cy * scale + 0.5f));
+  return cell;
 }
 
 // How thick a film must be to run onto this texel when it is dry: glass is not the same everywhere, so fronts turn into fingers.
 RG_FN float frontThickness_m(uint texel, RG_IN(FilmStepInfo) info) { return info.front_m * (0.5f + unitFloat(pcg(texel ^ info.pane))); }
 
-RG_FN bool wetTexel(int volume_pl, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) { return thickness_m(volume_pl, metric) >= info.pin_m; }
-
-// Water passes from `from` into `to` unless that is dry and the film too thin for it.
-RG_FN bool passesFront(int from_pl, int to_pl, uint to_texel, RG_IN(vec4) from_metric, RG_IN(vec4) to_metric, RG_IN(FilmStepInfo) info) {
-  if (to_pl < 0) return true; // over the pane's edge
-  if (wetTexel(to_pl, to_metric, info)) return true;
-  return thickness_m(from_pl, from_metric) >= frontThickness_m(to_texel, info);
+// Water passes into a texel unless that is dry and the film too thin for it; over the pane's edge it always does.
+RG_FN bool passesFront(float from_h_m, RG_IN(FilmCell) to, uint to_texel, RG_IN(FilmStepInfo) info) {
+  return to.volume_pl < 0 || to.h_m >= info.pin_m || from_h_m >= frontThickness_m(to_texel, info);
 }
 
-// Surface tension between neighbours, out of a into b; the same with a minus sign from b's side. Never more than an eighth of what is there.
-RG_FN int levelled_pl(int a_pl, int b_pl, bool a_wet, bool b_wet) {
-  if (!a_wet || !b_wet) return 0;
-  int difference = a_pl - b_pl;
-  int size = min(abs(difference) >> 5, (difference > 0 ? a_pl : b_pl) >> 3);
+// Surface tension between neighbours, out of a into b; the same with a minus sign from b's side. A share of the difference, small beside
+// drainage and chosen so; never more than an eighth of what is there.
+RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) info) {
+  if (a.h_m < info.pin_m || b.h_m < info.pin_m) return 0;
+  int difference = a.volume_pl - b.volume_pl;
+  int size = min(abs(difference) >> 5, max(a.volume_pl, b.volume_pl) >> 3);
   return difference > 0 ? size : -size;
+}
+
+// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it.
+RG_FN int faceFlow_pl(RG_IN(FilmCell) a, int a_pl, uint a_texel, RG_IN(FilmCell) b, int b_pl, uint b_texel, RG_IN(FilmStepInfo) info) {
+  int flow = levelled_pl(a, b, info);
+  if (a_pl > 0 && passesFront(a.h_m, b, b_texel, info)) flow += a_pl;
+  if (b_pl < 0 && passesFront(b.h_m, a, a_texel, info)) flow += b_pl;
+  return flow;
 }
 
 // Whole picolitres out of a rate: the rest by chance, so that the mean is right.

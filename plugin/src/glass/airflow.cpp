@@ -7,7 +7,8 @@
 
 namespace rg::glass {
 
-glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps, const AirflowShape& shape) {
+glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
+                        const AirflowShape& shape) {
   const double speed = glm::length(air_mps);
   if (speed < 1e-6) return glm::dvec3(0.0);
   const double into = -glm::dot(air_mps, node.normal);  // > 0: blows against the glass
@@ -35,17 +36,23 @@ void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, c
 
 Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {
   const glm::ivec2 count = map.nodeCount();
-  const glm::vec2 place = glm::clamp(glm::vec2(grid_m / (map.grid().texel_m * shared::kTileSize)), glm::vec2(0.0f), glm::vec2(count - 1) - 1e-3f);
+  const glm::vec2 place = glm::clamp(glm::vec2(grid_m / (map.grid().texel_m * shared::kTileSize)),
+                                     glm::vec2(0.0f), glm::vec2(count - 1) - 1e-3f);
   const glm::ivec2 cell(place);
   const glm::vec2 f = place - glm::vec2(cell);
   const NodePush* row = &nodes_[static_cast<size_t>(cell.y * count.x + cell.x)];
   const NodePush* next = row + count.x;
-  const auto mix4 = [&f](glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) { return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y); };
+  const auto mix4 = [&f](glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
+    return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y);
+  };
   const shared::vec4* metric = &map.nodeMetric()[static_cast<size_t>(cell.y * count.x + cell.x)];
   const shared::vec4* metric_next = metric + count.x;
-  return {glm::dvec2(mix4(row[0].acceleration, row[1].acceleration, next[0].acceleration, next[1].acceleration)),
-          glm::dvec2(mix4(row[0].air, row[1].air, next[0].air, next[1].air)),
-          glm::dvec2(mix4(shared::xy(metric[0]), shared::xy(metric[1]), shared::xy(metric_next[0]), shared::xy(metric_next[1]))) / map.grid().texel_m};
+  return {
+      glm::dvec2(mix4(row[0].acceleration, row[1].acceleration, next[0].acceleration, next[1].acceleration)),
+      glm::dvec2(mix4(row[0].air, row[1].air, next[0].air, next[1].air)),
+      glm::dvec2(mix4(shared::xy(metric[0]), shared::xy(metric[1]), shared::xy(metric_next[0]),
+                      shared::xy(metric_next[1]))) /
+          map.grid().texel_m};
 }
 
 std::vector<shared::vec4> ForceField::filmDrive() const {

@@ -10,14 +10,16 @@ namespace rg::glass {
 
 // Parameters of the field, all unsourced: in the order of what flow pictures over car bodies show.
 struct AirflowShape {
-  double stagnation = 0.65;   // share of the speed missing at the lower edge of a pane that faces the wind
-  double outward = 0.35;      // towards the pillars, of the component that blows against the pane
-  double lee = 0.25;          // share of the speed behind a pane that faces away
+  double stagnation = 0.65;      // share of the speed missing at the lower edge of a pane that faces the wind
+  double outward = 0.35;         // towards the pillars, of the component that blows against the pane
+  double lee = 0.25;             // share of the speed behind a pane that faces away
   double drag_friction = 0.004;  // C_f of tau = rho_a C_f U^2 / 2; 0.003..0.005
 };
 
-// Velocity of the air just above a node's boundary layer, along the glass, vehicle frame. `air_mps` is the free air's, relative to the vehicle.
-glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps, const AirflowShape& shape = {});
+// Velocity of the air just above a node's boundary layer, along the glass, vehicle frame. `air_mps` is the
+// free air's, relative to the vehicle.
+glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
+                        const AirflowShape& shape = {});
 
 // What pushes water at a place, grid axes, in real units.
 struct Push {

@@ -7,14 +7,21 @@
 namespace rg::glass {
 
 void Blades::set(uint32_t id, const WiperInfo& info, const PaneMap& map, FilmLink& film) {
-  const bool sound = info.arm_m >= 0.01 && info.arm_m < 5.0 && info.blade_m > 0.0 && info.blade_m < 5.0 && std::isfinite(info.blade_angle_rad) &&
-                     info.residual_film_m >= 0.0 && info.residual_film_m <= 1e-4 && std::abs(glm::length(info.axis) - 1.0) < 1e-3 &&
-                     std::abs(glm::length(info.rest_direction) - 1.0) < 1e-3 && std::abs(glm::dot(info.axis, info.rest_direction)) < 1e-2;
-  if (!sound) throw std::invalid_argument("wiper " + std::to_string(id) + ": arm, blade, axis, rest direction or residual film out of range");
+  const bool sound = info.arm_m >= 0.01 && info.arm_m < 5.0 && info.blade_m > 0.0 && info.blade_m < 5.0 &&
+                     std::isfinite(info.blade_angle_rad) && info.residual_film_m >= 0.0 &&
+                     info.residual_film_m <= 1e-4 && std::abs(glm::length(info.axis) - 1.0) < 1e-3 &&
+                     std::abs(glm::length(info.rest_direction) - 1.0) < 1e-3 &&
+                     std::abs(glm::dot(info.axis, info.rest_direction)) < 1e-2;
+  if (!sound)
+    throw std::invalid_argument("wiper " + std::to_string(id) +
+                                ": arm, blade, axis, rest direction or residual film out of range");
   remove(id, film);
   int slot = 0;
-  while (std::any_of(blades_.begin(), blades_.end(), [slot](const auto& b) { return b.second.wiper->slot() == slot; })) ++slot;
-  if (slot >= shared::kMaxGlassWipers) throw std::invalid_argument("wiper " + std::to_string(id) + ": a pane has at most 8 wipers");
+  while (std::any_of(blades_.begin(), blades_.end(),
+                     [slot](const auto& b) { return b.second.wiper->slot() == slot; }))
+    ++slot;
+  if (slot >= shared::kMaxGlassWipers)
+    throw std::invalid_argument("wiper " + std::to_string(id) + ": a pane has at most 8 wipers");
   Blade& blade = blades_[id];
   blade.wiper = std::make_unique<Wiper>(info, map, slot);
 }
@@ -55,7 +62,8 @@ void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_
   const Wiper& wiper = *blade.wiper;
   const auto [first, last] = wiper.range(sweep);
   const double texel_area_m2 = world.map.grid().texel_m * world.map.grid().texel_m;
-  world.film.sweep({wiper.swept(), first, last - first, static_cast<int>(picolitres(wiper.info().residual_film_m * texel_area_m2))});
+  world.film.sweep({wiper.swept(), first, last - first,
+                    static_cast<int>(picolitres(wiper.info().residual_film_m * texel_area_m2))});
   const std::vector<Drop>& all = drops.all();
   for (size_t slot = 0; slot < all.size(); ++slot) {
     const Drop& drop = all[slot];
@@ -85,7 +93,8 @@ void Blades::turn(FilmLink& film, Blade& blade) {
 // Pieces of the blade that have passed the pane's edge throw their water off.
 void Blades::leaveOffGlass(FilmLink& film, const Blade& blade) {
   for (int segment = 0; segment < shared::kBladeSegments; ++segment) {
-    if (blade.wiper->offGlass(segment, blade.angle_rad)) film.leave(blade.wiper->slot() * shared::kBladeSegments + segment, {});
+    if (blade.wiper->offGlass(segment, blade.angle_rad))
+      film.leave(blade.wiper->slot() * shared::kBladeSegments + segment, {});
   }
 }
 

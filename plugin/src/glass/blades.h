@@ -1,5 +1,5 @@
-// All blades of a pane during a tick: drops they meet go to the ridge they push, the film's steps learn what to sweep, ridges are left behind where
-// a blade turns round or stops.
+// All blades of a pane during a tick: drops they meet go to the ridge they push, the film's steps learn what
+// to sweep, ridges are left behind where a blade turns round or stops.
 #pragma once
 
 #include <map>

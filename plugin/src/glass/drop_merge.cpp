@@ -6,13 +6,14 @@
 namespace rg::glass {
 namespace {
 constexpr double kCell_m = 8e-3;  // as in drops.cpp
-constexpr double kTouch = 0.92;   // of the sum of radii: outlines are uneven, so circles must overlap a little
+constexpr double kTouch = 0.92;  // of the sum of radii: outlines are uneven, so circles must overlap a little
 }  // namespace
 
 void Drops::merge(const DropWorld& world) {
   largest_radius_m_ = 0.0;
   for (const Drop& drop : slots_.items) {
-    if (drop.volume_pl != 0) largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
+    if (drop.volume_pl != 0)
+      largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
   }
   for (size_t i = 0; i < changed_.size(); ++i) {
     int slot = changed_[i];
@@ -31,11 +32,14 @@ int Drops::touching(const DropWorld& world, int slot) const {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const glm::dvec2 metres = world.forces.at(world.map, drop.place_m).metres;
   const double reach_m = static_cast<double>(drop.base_radius_m) + largest_radius_m_;
-  const glm::ivec2 low = glm::clamp(glm::ivec2((drop.place_m - reach_m / metres) / kCell_m), glm::ivec2(0), cell_count_ - 1);
-  const glm::ivec2 high = glm::clamp(glm::ivec2((drop.place_m + reach_m / metres) / kCell_m), glm::ivec2(0), cell_count_ - 1);
+  const glm::ivec2 low =
+      glm::clamp(glm::ivec2((drop.place_m - reach_m / metres) / kCell_m), glm::ivec2(0), cell_count_ - 1);
+  const glm::ivec2 high =
+      glm::clamp(glm::ivec2((drop.place_m + reach_m / metres) / kCell_m), glm::ivec2(0), cell_count_ - 1);
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
-      for (int other = cells_[static_cast<size_t>(y * cell_count_.x + x)]; other >= 0; other = slots_.items[static_cast<size_t>(other)].next) {
+      for (int other = cells_[static_cast<size_t>(y * cell_count_.x + x)]; other >= 0;
+           other = slots_.items[static_cast<size_t>(other)].next) {
         if (other == slot) continue;
         const Drop& that = slots_.items[static_cast<size_t>(other)];
         const glm::dvec2 d = (that.place_m - drop.place_m) * metres;
@@ -49,10 +53,12 @@ int Drops::touching(const DropWorld& world, int slot) const {
 
 // The larger one lives on.
 int Drops::unite(const DropWorld& world, int a, int b) {
-  if (slots_.items[static_cast<size_t>(b)].volume_pl > slots_.items[static_cast<size_t>(a)].volume_pl) std::swap(a, b);
+  if (slots_.items[static_cast<size_t>(b)].volume_pl > slots_.items[static_cast<size_t>(a)].volume_pl)
+    std::swap(a, b);
   Drop& large = slots_.items[static_cast<size_t>(a)];
   const Drop& small = slots_.items[static_cast<size_t>(b)];
-  const double share = static_cast<double>(small.volume_pl) / static_cast<double>(large.volume_pl + small.volume_pl);
+  const double share =
+      static_cast<double>(small.volume_pl) / static_cast<double>(large.volume_pl + small.volume_pl);
   const glm::dvec2 between = small.place_m - large.place_m;
   const glm::dvec2 metres = world.forces.at(world.map, large.place_m).metres;
   const double distance_m = glm::length(between * metres);
@@ -63,7 +69,8 @@ int Drops::unite(const DropWorld& world, int a, int b) {
   if (longer > 1.05 && !large.moving) {
     const glm::dvec2 axis = distance_m > 0.0 ? between * metres / distance_m : glm::dvec2(large.heading);
     if (static_cast<double>(large.elongation) < longer) large.heading = glm::vec2(axis);
-    large.elongation = static_cast<float>(std::min(1.8, std::max(longer, 0.8 * static_cast<double>(large.elongation))));
+    large.elongation =
+        static_cast<float>(std::min(1.8, std::max(longer, 0.8 * static_cast<double>(large.elongation))));
   }
   large.velocity_mps += (small.velocity_mps - large.velocity_mps) * static_cast<float>(share);
   large.moving = large.moving || small.moving;

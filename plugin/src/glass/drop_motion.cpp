@@ -1,4 +1,5 @@
-// How drops move: held by the contact line, pulled by gravity and wind, slowed by their own friction, leaving water behind.
+// How drops move: held by the contact line, pulled by gravity and wind, slowed by their own friction, leaving
+// water behind.
 #include <algorithm>
 
 #include "glass/drops.h"
@@ -8,24 +9,30 @@
 namespace rg::glass {
 namespace {
 
-constexpr int kRestStride = 4;              // as in drops.cpp: drops at rest are looked at every fourth tick
-constexpr double kBoundaryLayer_m = 10e-3;  // thickness of the air's boundary layer on the glass (unsourced); profile: one-seventh power
-constexpr double kFastest_mps = 1.0;        // nothing faster than 0.7 m/s was seen sliding (Li et al. 2023); wind may add
-constexpr double kMeander = 0.35;           // tangent of the largest turn that uneven glass gives a path (unsourced)
+constexpr int kRestStride = 4;  // as in drops.cpp: drops at rest are looked at every fourth tick
+constexpr double kBoundaryLayer_m =
+    10e-3;  // thickness of the air's boundary layer on the glass (unsourced); profile: one-seventh power
+constexpr double kFastest_mps =
+    1.0;  // nothing faster than 0.7 m/s was seen sliding (Li et al. 2023); wind may add
+constexpr double kMeander = 0.35;  // tangent of the largest turn that uneven glass gives a path (unsourced)
 constexpr double kMeanderCell_m = 6e-3;
 
-// Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3, "depinning by wind".
+// Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
+// "depinning by wind".
 glm::dvec2 drag_n(const Drop& drop, glm::dvec2 air_mps, double width_m) {
   const double height_m = static_cast<double>(drop.height_m);
   const double speed = glm::length(air_mps) * std::pow(std::min(1.0, height_m / kBoundaryLayer_m), 1.0 / 7.0);
   const double outline_m2 = 2.0 / 3.0 * height_m * width_m;
-  return 0.5 * kRhoAir_kg_m3 * outline_m2 * speed * glm::length(air_mps) * air_mps / std::max(1e-9, glm::length(air_mps));
+  return 0.5 * kRhoAir_kg_m3 * outline_m2 * speed * glm::length(air_mps) * air_mps /
+         std::max(1e-9, glm::length(air_mps));
 }
 
 // Uneven glass: a turn of the path that depends on the place alone.
 double turnAt(glm::dvec2 place_m, uint32_t pane) {
-  const auto x = static_cast<uint32_t>(place_m.x / kMeanderCell_m), y = static_cast<uint32_t>(place_m.y / kMeanderCell_m);
-  return kMeander * (2.0 * static_cast<double>(shared::unitFloat(shared::pcg(x + shared::pcg(y ^ pane)))) - 1.0);
+  const auto x = static_cast<uint32_t>(place_m.x / kMeanderCell_m),
+             y = static_cast<uint32_t>(place_m.y / kMeanderCell_m);
+  return kMeander *
+         (2.0 * static_cast<double>(shared::unitFloat(shared::pcg(x + shared::pcg(y ^ pane)))) - 1.0);
 }
 
 }  // namespace
@@ -42,7 +49,8 @@ void Drops::move(const DropWorld& world) {
 void Drops::slide(const DropWorld& world, int slot) {
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const Push push = world.forces.at(world.map, drop.place_m);
-  const double width_m = 2.0 * static_cast<double>(drop.base_radius_m) / std::sqrt(static_cast<double>(drop.elongation));
+  const double width_m =
+      2.0 * static_cast<double>(drop.base_radius_m) / std::sqrt(static_cast<double>(drop.elongation));
   const double mass_kg = kRho_kg_m3 * cubicMetres(drop.volume_pl);
   const glm::dvec2 force_n = mass_kg * push.acceleration_mps2 + drag_n(drop, push.air_mps, width_m);
   const double force = glm::length(force_n);
@@ -67,7 +75,8 @@ void Drops::slide(const DropWorld& world, int slot) {
   drop.place_m += velocity / push.metres * kTickSeconds;
   link(slot);
   drop.heading = glm::vec2(velocity / speed);
-  // Round at rest, twice as long as wide at 0.3 m/s: between the corner and the pearls of Le Grand, Daerr & Limat 2005 (value by eye).
+  // Round at rest, twice as long as wide at 0.3 m/s: between the corner and the pearls of Le Grand, Daerr &
+  // Limat 2005 (value by eye).
   const double longer = 1.0 + std::min(1.5, speed / 0.3);
   drop.elongation += static_cast<float>((longer - static_cast<double>(drop.elongation)) * ease);
   if (overEdge(world, slot)) return;
@@ -93,7 +102,8 @@ bool Drops::overEdge(const DropWorld& world, int slot) {
 }
 
 // A film behind the tail, thicker the faster (Landau & Levich 1942: speed^(2/3)), and pearls.
-void Drops::leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres) {
+void Drops::leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps,
+                       glm::dvec2 metres) {
   const double width_m = 2.0 * static_cast<double>(drop.base_radius_m);
   const double film_m = surface_.trail_film_m * std::pow(speed_mps / 0.1, 2.0 / 3.0);
   const int64_t film_pl = std::min(picolitres(film_m * 0.5 * width_m * way_m), drop.volume_pl / 50);
@@ -106,19 +116,27 @@ void Drops::leaveTrail(const DropWorld& world, Drop& drop, double way_m, double 
   settle(drop);
 }
 
-// Tails pinch off droplets of a tenth to a fifth of the width, every few of their own sizes (Podgorski, Flesselles & Limat 2001; sizes by eye).
+// Tails pinch off droplets of a tenth to a fifth of the width, every few of their own sizes (Podgorski,
+// Flesselles & Limat 2001; sizes by eye).
 void Drops::leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres) {
   const uint32_t h = shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(drop.texel)));
-  const double radius_m = static_cast<double>(drop.base_radius_m) * (0.08 + 0.16 * static_cast<double>(shared::unitFloat(h)));
-  if (static_cast<double>(drop.since_pearl_m) < radius_m * (4.0 + 10.0 * static_cast<double>(shared::unitFloat(shared::pcg(h))))) return;
+  const double radius_m =
+      static_cast<double>(drop.base_radius_m) * (0.08 + 0.16 * static_cast<double>(shared::unitFloat(h)));
+  if (static_cast<double>(drop.since_pearl_m) <
+      radius_m * (4.0 + 10.0 * static_cast<double>(shared::unitFloat(shared::pcg(h)))))
+    return;
   drop.since_pearl_m = 0.0f;
   const double mean_rad = 0.5 * (surface_.advancing_rad + surface_.receding_rad);
   const int64_t pearl_pl = picolitres(capShape(mean_rad) * radius_m * radius_m * radius_m);
   if (pearl_pl > drop.volume_pl / 20 || pearl_pl < 200 || 10 * live_ > 9 * slots_.capacity_) return;
-  const double back_m = static_cast<double>(drop.base_radius_m) * std::sqrt(static_cast<double>(drop.elongation)) + 1.5 * radius_m;
+  const double back_m =
+      static_cast<double>(drop.base_radius_m) * std::sqrt(static_cast<double>(drop.elongation)) +
+      1.5 * radius_m;
   const glm::dvec2 heading(drop.heading);
-  const double aside = (static_cast<double>(shared::unitFloat(shared::pcg(h + 1u))) - 0.5) * static_cast<double>(drop.base_radius_m);
-  const glm::dvec2 place = drop.place_m + (-back_m * heading + aside * glm::dvec2(-heading.y, heading.x)) / metres;
+  const double aside = (static_cast<double>(shared::unitFloat(shared::pcg(h + 1u))) - 0.5) *
+                       static_cast<double>(drop.base_radius_m);
+  const glm::dvec2 place =
+      drop.place_m + (-back_m * heading + aside * glm::dvec2(-heading.y, heading.x)) / metres;
   if (world.map.texelAt(place) < 0) return;
   // Storage does not move: slots are reserved up to the capacity.
   if (add(world, place, passed(LeakyKernel::trail, pearl_pl), radius_m, h) >= 0) drop.volume_pl -= pearl_pl;

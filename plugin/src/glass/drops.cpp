@@ -10,9 +10,9 @@
 namespace rg::glass {
 namespace {
 
-constexpr double kCell_m = 8e-3;          // of the neighbour grid: few drops are wider
-constexpr int64_t kLeastDrop_pl = 50;     // a hemisphere of 0.03 mm: dries in a blink
-constexpr int kRestStride = 4;            // drops at rest are looked at every fourth tick
+constexpr double kCell_m = 8e-3;       // of the neighbour grid: few drops are wider
+constexpr int64_t kLeastDrop_pl = 50;  // a hemisphere of 0.03 mm: dries in a blink
+constexpr int kRestStride = 4;         // drops at rest are looked at every fourth tick
 
 }  // namespace
 
@@ -63,17 +63,21 @@ void Drops::unlink(int slot) {
   *at = drop.next;
 }
 
-// A contact line moves where the angle would leave the range between receding and advancing; otherwise it is pinned.
+// A contact line moves where the angle would leave the range between receding and advancing; otherwise it is
+// pinned.
 void Drops::settle(Drop& drop) const {
   const double volume_m3 = cubicMetres(drop.volume_pl);
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double shape = volume_m3 / (radius_m * radius_m * radius_m);
-  if (!(shape <= shape_advancing_)) drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_advancing_));
-  if (shape < shape_receding_) drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
+  if (!(shape <= shape_advancing_))
+    drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_advancing_));
+  if (shape < shape_receding_)
+    drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
   drop.height_m = static_cast<float>(capHeight(volume_m3, static_cast<double>(drop.base_radius_m)));
 }
 
-int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed, bool as_told) {
+int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m,
+               uint32_t seed, bool as_told) {
   const int texel = world.map.texelAt(place_m);
   if (texel < 0 || volume_pl <= 0) return -1;
   int slot;
@@ -95,7 +99,8 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
   drop.base_radius_m = static_cast<float>(base_radius_m);
   drop.seed = seed;
   drop.texel = texel;
-  const double turn = 6.283185307179586 * static_cast<double>(shared::unitFloat(shared::pcg(seed ^ 0x51ed270bu)));
+  const double turn =
+      6.283185307179586 * static_cast<double>(shared::unitFloat(shared::pcg(seed ^ 0x51ed270bu)));
   drop.heading = glm::vec2(glm::dvec2(std::cos(turn), std::sin(turn)));
   if (as_told) {
     drop.height_m = static_cast<float>(capHeight(cubicMetres(volume_pl), base_radius_m));
@@ -117,22 +122,28 @@ int64_t Drops::remove(int slot) {
   return std::exchange(drop.volume_pl, 0);
 }
 
-// When slots run short the smallest sizes are not kept as drops any more, the limit rising from 0 at half full to 2 mm at full.
+// When slots run short the smallest sizes are not kept as drops any more, the limit rising from 0 at half
+// full to 2 mm at full.
 void Drops::impact(const DropWorld& world, const Impact& impact) {
   const int64_t volume_pl = passed(LeakyKernel::impact, impact.volume_pl);
-  const double used = slots_.capacity_ == 0 ? 1.0 : static_cast<double>(live_) / static_cast<double>(slots_.capacity_);
+  const double used =
+      slots_.capacity_ == 0 ? 1.0 : static_cast<double>(live_) / static_cast<double>(slots_.capacity_);
   const double least_diameter_m = 4e-3 * std::max(0.0, used - 0.5);
   const double wet = world.film.attached() ? world.film.thickness_m(impact.texel) / surface_.wetting_m : 0.0;
-  // A falling drop spreads until its edge has some angle between both: the more so, the rougher it met the glass.
+  // A falling drop spreads until its edge has some angle between both: the more so, the rougher it met the
+  // glass.
   const double chance = static_cast<double>(shared::unitFloat(impact.hash));
-  const double angle = surface_.receding_rad + (surface_.advancing_rad - surface_.receding_rad) * (0.35 + 0.6 * chance);
-  const bool to_film = impact.diameter_m < least_diameter_m || slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0;
+  const double angle =
+      surface_.receding_rad + (surface_.advancing_rad - surface_.receding_rad) * (0.35 + 0.6 * chance);
+  const bool to_film =
+      impact.diameter_m < least_diameter_m || slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0;
   if (!to_film) {
     const double radius_m = std::cbrt(cubicMetres(volume_pl) / capShape(angle));
     if (add(world, impact.place_m, volume_pl, radius_m, impact.hash) >= 0) return;
   }
   // The splash's lamella spreads it over some five diameters.
-  world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres, 2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
+  world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres,
+                    2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
 }
 
 void Drops::give(const DropWorld& world, const Taker& taker, int64_t volume_pl) {
@@ -157,12 +168,14 @@ void Drops::age(const DropWorld& world) {
     drop.age_s += static_cast<float>(kRestStride * kTickSeconds);
     const double film_m = world.film.thickness_m(drop.texel);
     // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
-    const bool drowns = film_m > 2.0 * surface_.wetting_m && static_cast<double>(drop.height_m) < 5.0 * film_m &&
+    const bool drowns = film_m > 2.0 * surface_.wetting_m &&
+                        static_cast<double>(drop.height_m) < 5.0 * film_m &&
                         shared::unitFloat(shared::pcg(drop.seed + static_cast<uint32_t>(world.tick))) < 0.06f;
     if (drowns) {
       const glm::dvec2 place = drop.place_m;
       const double radius_m = static_cast<double>(drop.base_radius_m);
-      world.film.spread(place, world.forces.at(world.map, place).metres, 1.5 * radius_m + world.map.grid().texel_m, remove(static_cast<int>(slot)));
+      world.film.spread(place, world.forces.at(world.map, place).metres,
+                        1.5 * radius_m + world.map.grid().texel_m, remove(static_cast<int>(slot)));
       continue;
     }
     if (world.humidity < 1.0) dry(world, static_cast<int>(slot));
@@ -174,10 +187,12 @@ void Drops::dry(const DropWorld& world, int slot) {
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double theta = capAngle(static_cast<double>(drop.height_m), radius_m);
   const double air_mps = glm::length(world.forces.at(world.map, drop.place_m).air_mps);
-  const double rate_kg_s = evaporation_kg_s(radius_m, theta, world.humidity, world.saturated_kg_m3) * ventilation(air_mps, 2.0 * radius_m);
+  const double rate_kg_s = evaporation_kg_s(radius_m, theta, world.humidity, world.saturated_kg_m3) *
+                           ventilation(air_mps, 2.0 * radius_m);
   const double lost = rate_kg_s / kRho_kg_m3 * kRestStride * kTickSeconds * kPicolitresPerM3;
   // Whole picolitres; the rest by chance, so that the mean is right.
-  const double chance = static_cast<double>(shared::unitFloat(shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(world.tick)))));
+  const double chance = static_cast<double>(
+      shared::unitFloat(shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(world.tick)))));
   int64_t lost_pl = std::min(static_cast<int64_t>(lost + chance), drop.volume_pl);
   if (drop.volume_pl - lost_pl < kLeastDrop_pl) lost_pl = drop.volume_pl;
   if (lost_pl == drop.volume_pl) {
@@ -197,7 +212,8 @@ uint64_t Drops::hash(uint64_t start) const {
     if (drop.volume_pl == 0) continue;
     mix(std::bit_cast<uint64_t>(drop.place_m.x));
     mix(std::bit_cast<uint64_t>(drop.place_m.y));
-    mix(std::bit_cast<uint32_t>(drop.velocity_mps.x) | static_cast<uint64_t>(std::bit_cast<uint32_t>(drop.velocity_mps.y)) << 32);
+    mix(std::bit_cast<uint32_t>(drop.velocity_mps.x) |
+        static_cast<uint64_t>(std::bit_cast<uint32_t>(drop.velocity_mps.y)) << 32);
     mix(std::bit_cast<uint32_t>(drop.base_radius_m) | static_cast<uint64_t>(drop.seed) << 32);
   }
   return h;

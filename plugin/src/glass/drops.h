@@ -1,4 +1,5 @@
-// Drops on the glass: they stick, slide, merge, leave trails, run off, dry. Volumes are whole picolitres and only ever move from one place to another.
+// Drops on the glass: they stick, slide, merge, leave trails, run off, dry. Volumes are whole picolitres and
+// only ever move from one place to another.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +20,17 @@ struct Drop {
   glm::dvec2 place_m{0.0};       // grid metres
   glm::vec2 velocity_mps{0.0f};  // real, grid axes
   glm::vec2 heading{1.0f, 0.0f};
-  float base_radius_m = 0.0f;    // real
+  float base_radius_m = 0.0f;  // real
   float height_m = 0.0f;
   float elongation = 1.0f;
-  float since_pearl_m = 0.0f;    // way since it last left a droplet behind
+  float since_pearl_m = 0.0f;  // way since it last left a droplet behind
   float age_s = 0.0f;
   uint32_t seed = 0;
-  uint32_t life = 0;             // counts the drops that had this slot
-  int32_t next = -1;             // in its cell's list
+  uint32_t life = 0;  // counts the drops that had this slot
+  int32_t next = -1;  // in its cell's list
   int32_t texel = 0;
   bool moving = false;
-  bool changed = false;          // has to be looked at for neighbours it touches
+  bool changed = false;  // has to be looked at for neighbours it touches
 };
 
 // What drops of a pane have in common during a tick.
@@ -56,9 +57,10 @@ class Drops {
   const std::vector<Drop>& all() const { return slots_.items; }
   void clear();
 
-  // A drop of this base; its contact angle is kept between receding and advancing by a wider or narrower base unless `as_told`. Returns its slot, or
-  // -1 when there is no room (nothing happened).
-  int add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed, bool as_told = false);
+  // A drop of this base; its contact angle is kept between receding and advancing by a wider or narrower base
+  // unless `as_told`. Returns its slot, or -1 when there is no room (nothing happened).
+  int add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed,
+          bool as_told = false);
   // A raindrop: a new drop, or water for the film where that is thick or slots run short.
   void impact(const DropWorld& world, const Impact& impact);
   // Water a drop ran over; goes to the film again when the drop is no more.

@@ -9,7 +9,7 @@
 namespace rg::glass {
 namespace {
 
-constexpr int64_t kMostToTexel_pl = 200'000'000;   // 0.2 mL: texels are 32-bit
+constexpr int64_t kMostToTexel_pl = 200'000'000;  // 0.2 mL: texels are 32-bit
 constexpr int64_t kMostToRidge_pl = 200'000'000;
 
 int64_t travellingIn(const FilmReport& report) {
@@ -49,6 +49,7 @@ void FilmLink::clear() {
   takers_.clear();
   order_ = {};
   gathered_pl_ = 0;
+  leaving_.fill(false);
   outbox_.clear();
   ordered_.clear();
   reports_.clear();
@@ -91,12 +92,15 @@ void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int
   }
   if (count == 0) {
     const int texel = map_.texelAt(grid_m);
-    if (texel >= 0) add(texel, volume_pl);
-    else ledger_.drained_pl += volume_pl;
+    if (texel >= 0)
+      add(texel, volume_pl);
+    else
+      ledger_.drained_pl += volume_pl;
     return;
   }
   const int64_t each = volume_pl / static_cast<int64_t>(count);
-  for (size_t i = 0; i < count; ++i) add(texels[i], i == 0 ? volume_pl - each * static_cast<int64_t>(count - 1) : each);
+  for (size_t i = 0; i < count; ++i)
+    add(texels[i], i == 0 ? volume_pl - each * static_cast<int64_t>(count - 1) : each);
 }
 
 void FilmLink::take(int texel, double share, uint32_t slot, uint32_t life) {
@@ -124,13 +128,15 @@ void FilmLink::sweep(const SweepOrder& sweep) {
 }
 
 void FilmLink::leave(int segment, const std::vector<int>& texels) {
-  if (!attached_) return;
-  order_.leaves.push_back({segment, static_cast<int>(order_.leave_texels.size()), static_cast<int>(texels.size()), 0});
+  if (!attached_ || std::exchange(leaving_[static_cast<size_t>(segment)], true)) return;
+  order_.leaves.push_back(
+      {segment, static_cast<int>(order_.leave_texels.size()), static_cast<int>(texels.size()), 0});
   order_.leave_texels.insert(order_.leave_texels.end(), texels.begin(), texels.end());
 }
 
 void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared::FilmStepInfo& info) {
   next_step_ = step + 1;
+  leaving_.fill(false);
   if (!attached_) return;
   for (const int texel : touched_) {
     order_.adds.push_back({texel, static_cast<int>(sums_[static_cast<size_t>(texel)])});
@@ -149,7 +155,8 @@ void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared
 std::vector<FilmOrder> FilmLink::fetch() { return std::exchange(outbox_, {}); }
 
 void FilmLink::deliver(FilmReport&& report) {
-  if (!attached_ || ordered_.empty() || ordered_.front().step != report.step) return;  // of a film that is no more
+  if (!attached_ || ordered_.empty() || ordered_.front().step != report.step)
+    return;  // of a film that is no more
   report_takers_.push_back(std::move(ordered_.front().takers));
   ordered_.pop_front();
   last_reported_ = report.step;
@@ -173,7 +180,8 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
   report_takers_.pop_front();
   for (size_t i = 0; i < report.tiles.size(); ++i) {
     const shared::FilmTile& tile = report.tiles[i];
-    const int64_t volume_pl = static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
+    const int64_t volume_pl =
+        static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
     const float area_m2 = map_.tileArea_m2()[i];
     tile_thickness_m_[i] = area_m2 > 0.0f ? static_cast<float>(cubicMetres(volume_pl)) / area_m2 : 0.0f;
   }
@@ -181,7 +189,8 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
 }
 
 double FilmLink::thickness_m(int texel) const {
-  const int x = texel % map_.grid().size.x / shared::kTileSize, y = texel / map_.grid().size.x / shared::kTileSize;
+  const int x = texel % map_.grid().size.x / shared::kTileSize,
+            y = texel / map_.grid().size.x / shared::kTileSize;
   return static_cast<double>(tile_thickness_m_[static_cast<size_t>(y * map_.tileCount().x + x)]);
 }
 

@@ -1,7 +1,9 @@
-// The CPU's end of the film: gathers what ticks give to it and ask of it into one order a step, and says where the film is thick enough to swallow
-// drops. Without a film (none attached, or a pane that has none) water meant for it runs off: it is booked as drained.
+// The CPU's end of the film: gathers what ticks give to it and ask of it into one order a step, and says
+// where the film is thick enough to swallow drops. Without a film (none attached, or a pane that has none)
+// water meant for it runs off: it is booked as drained.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -27,7 +29,8 @@ class FilmLink {
   void attach();
   void detach();  // what is on the film or under way is booked as drained
 
-  // Gives water to a texel, or evenly to those within a radius (real metres, `metres` real for a grid metre). Places off the pane get none of it.
+  // Gives water to a texel, or evenly to those within a radius (real metres, `metres` real for a grid metre).
+  // Places off the pane get none of it.
   void add(int texel, int64_t volume_pl);
   void spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl);
   // Asks for a share of what is on a texel; the report brings it. The first to ask in a step gets it.
@@ -65,10 +68,11 @@ class FilmLink {
   bool clear_ = true;
   int64_t first_step_ = 0, last_reported_ = -1, next_step_ = 0;
   FilmOrder order_;
-  std::vector<int64_t> sums_;       // given to a texel in this step
-  std::vector<int> touched_;        // texels with a sum
-  std::vector<int64_t> taken_in_;   // the step in which somebody asked for a texel
+  std::vector<int64_t> sums_;      // given to a texel in this step
+  std::vector<int> touched_;       // texels with a sum
+  std::vector<int64_t> taken_in_;  // the step in which somebody asked for a texel
   std::vector<Taker> takers_;
+  std::array<bool, kRidgePieces> leaving_{};  // in this step; the first to say where a ridge goes is right
   int64_t gathered_pl_ = 0;
   std::vector<FilmOrder> outbox_;
   std::deque<Ordered> ordered_;     // not yet reported

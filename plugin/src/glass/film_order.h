@@ -1,4 +1,5 @@
-// What travels between a pane's ticks on the CPU and its film on the GPU: orders for one film step (two ticks), and the report of it.
+// What travels between a pane's ticks on the CPU and its film on the GPU: orders for one film step (two
+// ticks), and the report of it.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,13 @@
 namespace rg::glass {
 
 inline constexpr int kTicksPerFilmStep = 2;
-// A report is used this many ticks after the step it tells of: long enough for a GPU that lags and for hosts that draw 12 pictures a second, and the
-// same for all, so that the state does not depend on how fast anything was.
+// A report is used this many ticks after the step it tells of: long enough for a GPU that lags and for hosts
+// that draw 12 pictures a second, and the same for all, so that the state does not depend on how fast
+// anything was.
 inline constexpr int kReportLatency_ticks = 16;
 inline constexpr int kRidgePieces = shared::kMaxGlassWipers * shared::kBladeSegments;
-inline constexpr size_t kMostTakes = 4096;  // of a step; drops that come later run over the film without taking it
+inline constexpr size_t kMostTakes =
+    4096;  // of a step; drops that come later run over the film without taking it
 
 // A blade's way in terms of its list of swept texels.
 struct SweepOrder {
@@ -35,7 +38,7 @@ struct FilmOrder {
   std::vector<int> leave_texels;
   std::vector<shared::vec4> drive;  // per node, see ForceField::filmDrive
   shared::FilmStepInfo info{};
-  int64_t ordered_pl = 0;           // of adds and ridge_adds
+  int64_t ordered_pl = 0;  // of adds and ridge_adds
 };
 
 struct FilmReport {
@@ -43,7 +46,7 @@ struct FilmReport {
   std::vector<shared::FilmTile> tiles;
   std::vector<int> taken_pl;  // one for each of the order's takes
   int64_t ridge_pl = 0;
-  int64_t wiped_pl = 0;       // thrown off by blades in this step
+  int64_t wiped_pl = 0;  // thrown off by blades in this step
 };
 
 }  // namespace rg::glass

@@ -10,9 +10,13 @@
 namespace rg::glass {
 namespace {
 
-glm::dvec3 dropVelocity(const PaneTick& tick, const SizeClass& size) { return tick.air_mps + size.fall_speed_mps * tick.down; }
+glm::dvec3 dropVelocity(const PaneTick& tick, const SizeClass& size) {
+  return tick.air_mps + size.fall_speed_mps * tick.down;
+}
 
-double dropVolume_m3(double diameter_m) { return std::numbers::pi / 6.0 * diameter_m * diameter_m * diameter_m; }
+double dropVolume_m3(double diameter_m) {
+  return std::numbers::pi / 6.0 * diameter_m * diameter_m * diameter_m;
+}
 
 // Swept volume per second of a region by drops of velocity v.
 double reached_m3_s(const PaneMap& map, const PaneTick& tick, int region, const glm::dvec3& v) {
@@ -39,25 +43,29 @@ double catchRate_m3_s(const PaneMap& map, const PaneTick& tick) {
   for (uint32_t c = 0; c < tick.class_count; ++c) {
     const SizeClass& size = tick.classes[c];
     for (int r = 0; r < kRegions; ++r) {
-      sum += size.number_per_m3 * dropVolume_m3(size.diameter_m) * reached_m3_s(map, tick, r, dropVelocity(tick, size));
+      sum += size.number_per_m3 * dropVolume_m3(size.diameter_m) *
+             reached_m3_s(map, tick, r, dropVelocity(tick, size));
     }
   }
   return sum;
 }
 
-void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32_t pane, std::vector<Impact>& out) {
+void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32_t pane,
+                 std::vector<Impact>& out) {
   out.clear();
   for (uint32_t c = 0; c < tick.class_count; ++c) {
     const SizeClass& size = tick.classes[c];
     const glm::dvec3 v = dropVelocity(tick, size);
     std::array<double, kRegions> sums{};
     double reached = 0.0;
-    for (int r = 0; r < kRegions; ++r) sums[static_cast<size_t>(r)] = reached += reached_m3_s(map, tick, r, v);
+    for (int r = 0; r < kRegions; ++r)
+      sums[static_cast<size_t>(r)] = reached += reached_m3_s(map, tick, r, v);
     if (reached <= 0.0) continue;
     Stream random(seed, pane, static_cast<uint64_t>(tick.index), c);
     const uint32_t count = poisson(random, reached * size.number_per_m3 * kTickSeconds);
     for (uint32_t i = 0; i < count; ++i) {
-      const auto region = std::lower_bound(sums.begin(), sums.end() - 1, random.unit() * reached) - sums.begin();
+      const auto region =
+          std::lower_bound(sums.begin(), sums.end() - 1, random.unit() * reached) - sums.begin();
       Impact impact;
       impact.texel = pickTexel(map, static_cast<int>(region), v, random);
       const glm::dvec2 corner = map.middleOf(impact.texel) - 0.5 * map.grid().texel_m;

@@ -13,13 +13,16 @@ struct Impact {
   int texel = 0;
   double diameter_m = 0.0;
   int64_t volume_pl = 0;
-  uint32_t hash = 0;        // for what is random about this drop
+  uint32_t hash = 0;  // for what is random about this drop
 };
 
-// Water that meets the pane in a second, m^3/s: sum over sizes and regions of N V_D max(0, -(v_drop - v_glass) . n) A.
+// Water that meets the pane in a second, m^3/s: sum over sizes and regions of N V_D max(0, -(v_drop -
+// v_glass) . n) A.
 double catchRate_m3_s(const PaneMap& map, const PaneTick& tick);
 
-// A Poisson number for each size, by hash of (seed, pane, tick, size); places go by area and incidence. `out` is cleared first.
-void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32_t pane, std::vector<Impact>& out);
+// A Poisson number for each size, by hash of (seed, pane, tick, size); places go by area and incidence. `out`
+// is cleared first.
+void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32_t pane,
+                 std::vector<Impact>& out);
 
 }  // namespace rg::glass

@@ -14,21 +14,26 @@
 namespace rg::glass {
 namespace {
 
+constexpr uint32_t kRoundSeed = 0;            // the look draws it with a round outline
 constexpr size_t kMostWaiting = 4 * kTickHz;  // ticks; more is a stall
 
 Surface surfaceFor(const PaneInfo& info) {
   Surface surface = surfaceOf(info.glass);
   if (info.advancing_rad > 0.0) surface.advancing_rad = info.advancing_rad;
   if (info.receding_rad > 0.0) surface.receding_rad = info.receding_rad;
-  const bool sound = surface.receding_rad > 0.0 && surface.receding_rad <= surface.advancing_rad && surface.advancing_rad < 0.98 * std::numbers::pi;
-  if (!sound) throw std::invalid_argument("pane '" + info.name + "': contact angles must be 0 < receding <= advancing < 176 degrees");
+  const bool sound = surface.receding_rad > 0.0 && surface.receding_rad <= surface.advancing_rad &&
+                     surface.advancing_rad < 0.98 * std::numbers::pi;
+  if (!sound)
+    throw std::invalid_argument("pane '" + info.name +
+                                "': contact angles must be 0 < receding <= advancing < 176 degrees");
   return surface;
 }
 
 // Still air takes vapour through a layer some millimetres thick (unsourced); moving air thins it.
 constexpr double kVapourLayer_m = 5e-3;
 double filmEvaporation_mps(double humidity, double saturated_kg_m3, double air_mps) {
-  const double still = kVapourDiffusivity_m2_s * std::max(0.0, 1.0 - humidity) * saturated_kg_m3 / kVapourLayer_m / kRho_kg_m3;
+  const double still =
+      kVapourDiffusivity_m2_s * std::max(0.0, 1.0 - humidity) * saturated_kg_m3 / kVapourLayer_m / kRho_kg_m3;
   return still * ventilation(air_mps, 2.0 * kVapourLayer_m);
 }
 
@@ -42,6 +47,7 @@ struct PaneSim::State {
         film_enabled(info.film_enabled),
         surface(surfaceFor(info)),
         map(info),
+        mesh(info),
         film(map, ledger),
         drops(map, surface, info.max_drops) {}
 
@@ -50,7 +56,10 @@ struct PaneSim::State {
     std::vector<PlacedDrop> placed;  // after it
   };
 
-  DropWorld world() { return {map, surface, forces, film, ledger, seed, id, now.index, now.humidity, saturatedVapour_kg_m3(now.temperature_c)}; }
+  DropWorld world() {
+    return {map,  surface, forces,    film,         ledger,
+            seed, id,      now.index, now.humidity, saturatedVapour_kg_m3(now.temperature_c)};
+  }
   bool ready() const { return (ticks + 1) % kTicksPerFilmStep != 0 || film.reported(stepUsedBy(ticks + 1)); }
   static int64_t stepUsedBy(int64_t tick) { return (tick - kReportLatency_ticks) / kTicksPerFilmStep; }
   void runWaiting();
@@ -68,6 +77,7 @@ struct PaneSim::State {
   bool film_enabled;
   Surface surface;
   PaneMap map;
+  PaneMesh mesh;
   Ledger ledger;
   FilmLink film;
   Drops drops;
@@ -76,7 +86,6 @@ struct PaneSim::State {
   std::vector<Impact> impacts;
   PaneTick now;
   int64_t ticks = 0;  // run since the pane was made
-  uint32_t placed = 0;
   std::deque<Waiting> waiting;
   uint64_t dropped_ticks = 0;
   mutable std::shared_ptr<const PaneSnapshot> snapshot;  // null: to be made
@@ -116,11 +125,15 @@ void PaneSim::State::useReport() {
   for (size_t i = 0; i < takers.size(); ++i) drops.give(shared_world, takers[i], report.taken_pl[i]);
   for (const shared::FilmTile& tile : report.tiles) {
     if (tile.event_texel < 0 || tile.event_pl <= 0) continue;
-    const uint32_t h = shared::pcg(static_cast<uint32_t>(tile.event_texel) ^ shared::pcg(static_cast<uint32_t>(report.step)));
-    const double angle = surface.receding_rad + (surface.advancing_rad - surface.receding_rad) * (0.4 + 0.5 * static_cast<double>(shared::unitFloat(h)));
-    const glm::dvec2 jitter = glm::dvec2(shared::unitFloat(shared::pcg(h)), shared::unitFloat(shared::pcg(h + 1u))) - 0.5;
+    const uint32_t h = shared::pcg(static_cast<uint32_t>(tile.event_texel) ^
+                                   shared::pcg(static_cast<uint32_t>(report.step)));
+    const double angle = surface.receding_rad + (surface.advancing_rad - surface.receding_rad) *
+                                                    (0.4 + 0.5 * static_cast<double>(shared::unitFloat(h)));
+    const glm::dvec2 jitter =
+        glm::dvec2(shared::unitFloat(shared::pcg(h)), shared::unitFloat(shared::pcg(h + 1u))) - 0.5;
     const glm::dvec2 place = map.middleOf(tile.event_texel) + jitter * map.grid().texel_m;
-    if (drops.add(shared_world, place, tile.event_pl, std::cbrt(cubicMetres(tile.event_pl) / capShape(angle)), h) < 0) {
+    if (drops.add(shared_world, place, tile.event_pl, std::cbrt(cubicMetres(tile.event_pl) / capShape(angle)),
+                  h) < 0) {
       film.add(tile.event_texel, tile.event_pl);
     }
   }
@@ -130,17 +143,21 @@ void PaneSim::State::closeFilmStep() {
   shared::FilmStepInfo info{};
   info.columns = map.grid().size.x;
   info.rows = map.grid().size.y;
-  info.step = static_cast<uint32_t>(ticks / kTicksPerFilmStep);
+  info.step = static_cast<uint32_t>(now.index);
   info.pane = id ^ static_cast<uint32_t>(seed);
   info.up_x = static_cast<float>(map.up().x);
   info.up_y = static_cast<float>(map.up().y);
   info.pin_m = static_cast<float>(surface.pin_m);
   info.front_m = static_cast<float>(surface.front_m);
   info.rupture_m = static_cast<float>(surface.rupture_m);
-  const double room = drops.capacity() == 0 ? 0.0 : 1.0 - static_cast<double>(drops.count()) / static_cast<double>(drops.capacity());
-  info.rupture_chance = static_cast<float>(std::min(1.0, surface.rupture_hz * std::max(0.0, 4.0 * room - 1.0) * kTicksPerFilmStep * kTickSeconds));
+  const double room = drops.capacity() == 0
+                          ? 0.0
+                          : 1.0 - static_cast<double>(drops.count()) / static_cast<double>(drops.capacity());
+  info.rupture_chance = static_cast<float>(
+      std::min(1.0, surface.rupture_hz * std::max(0.0, 4.0 * room - 1.0) * kTicksPerFilmStep * kTickSeconds));
   info.drops_allowed = room > 0.1 ? 1 : 0;
-  info.evaporation_mps = static_cast<float>(filmEvaporation_mps(now.humidity, saturatedVapour_kg_m3(now.temperature_c), 0.5 * glm::length(now.air_mps)));
+  info.evaporation_mps = static_cast<float>(filmEvaporation_mps(
+      now.humidity, saturatedVapour_kg_m3(now.temperature_c), 0.5 * glm::length(now.air_mps)));
   film.close(ticks / kTicksPerFilmStep, forces.filmDrive(), info);
 }
 
@@ -155,13 +172,17 @@ void PaneSim::State::runWaiting() {
 
 void PaneSim::State::checkPlaces(std::span<const PlacedDrop> list) const {
   for (const PlacedDrop& drop : list) {
-    const bool sound = drop.base_radius_m >= 1e-5 && drop.base_radius_m <= 0.02 && drop.contact_angle_rad > 0.017 && drop.contact_angle_rad < 2.97;
-    if (!sound) throw std::invalid_argument("pane '" + name + "': a placed drop's base radius or contact angle is out of range");
+    const bool sound = drop.base_radius_m >= 1e-5 && drop.base_radius_m <= 0.02 &&
+                       drop.contact_angle_rad > 0.017 && drop.contact_angle_rad < 2.97;
+    if (!sound)
+      throw std::invalid_argument("pane '" + name +
+                                  "': a placed drop's base radius or contact angle is out of range");
     if (map.texelAt(map.gridFromGlass({drop.u_m, drop.v_m})) < 0) {
       throw std::invalid_argument("pane '" + name + "': a placed drop lies off the pane");
     }
   }
-  if (list.size() > drops.capacity() - drops.count()) throw std::invalid_argument("pane '" + name + "': has no room for so many drops");
+  if (list.size() > drops.capacity() - drops.count())
+    throw std::invalid_argument("pane '" + name + "': has no room for so many drops");
 }
 
 void PaneSim::State::place(std::span<const PlacedDrop> list) {
@@ -169,17 +190,21 @@ void PaneSim::State::place(std::span<const PlacedDrop> list) {
   if (forces.empty()) forces.make(map, now.acceleration_mps2, now.air_mps);
   const DropWorld shared_world = world();
   for (const PlacedDrop& drop : list) {
-    const int64_t volume_pl = picolitres(capShape(drop.contact_angle_rad) * std::pow(drop.base_radius_m, 3.0));
-    if (drops.add(shared_world, map.gridFromGlass({drop.u_m, drop.v_m}), volume_pl, drop.base_radius_m, shared::pcg(placed++), true) >= 0) {
+    const int64_t volume_pl =
+        picolitres(capShape(drop.contact_angle_rad) * std::pow(drop.base_radius_m, 3.0));
+    if (drops.add(shared_world, map.gridFromGlass({drop.u_m, drop.v_m}), volume_pl, drop.base_radius_m,
+                  kRoundSeed, true) >= 0) {
       ledger.caught_pl += volume_pl;
     }
   }
 }
 
-PaneSim::PaneSim(const PaneInfo& info, uint32_t id, uint64_t seed) : state_(std::make_unique<State>(info, id, seed)) {}
+PaneSim::PaneSim(const PaneInfo& info, uint32_t id, uint64_t seed)
+    : state_(std::make_unique<State>(info, id, seed)) {}
 PaneSim::~PaneSim() = default;
 
 const PaneMap& PaneSim::map() const { return state_->map; }
+const PaneMesh& PaneSim::mesh() const { return state_->mesh; }
 const std::string& PaneSim::name() const { return state_->name; }
 
 void PaneSim::setWiper(uint32_t id, const WiperInfo& info) {
@@ -221,7 +246,7 @@ void PaneSim::reset() {
   state_->blades.clear();
   state_->ledger = {};
   state_->dropped_ticks = 0;
-  state_->placed = 0;
+  state_->ticks += state_->ticks % kTicksPerFilmStep;  // film steps end with the same ticks as on a new pane
   state_->snapshot.reset();
 }
 
@@ -235,12 +260,14 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
     if (drop.volume_pl == 0) continue;
     shared::GlassDropRecord record{};
     record.position_m = glm::vec2(drop.place_m);
-    const glm::vec2 metres = drop.moving ? glm::vec2(state_->forces.at(state_->map, drop.place_m).metres) : glm::vec2(1.0f);
+    const glm::vec2 metres =
+        drop.moving ? glm::vec2(state_->forces.at(state_->map, drop.place_m).metres) : glm::vec2(1.0f);
     record.velocity_mps = drop.velocity_mps / metres;
     record.heading = drop.heading;
     record.base_radius_m = drop.base_radius_m;
     record.height_m = drop.height_m;
-    record.contact_angle_rad = static_cast<float>(capAngle(static_cast<double>(drop.height_m), static_cast<double>(drop.base_radius_m)));
+    record.contact_angle_rad = static_cast<float>(
+        capAngle(static_cast<double>(drop.height_m), static_cast<double>(drop.base_radius_m)));
     record.elongation = drop.elongation;
     record.seed = drop.seed;
     record.age_s = drop.age_s;
@@ -273,7 +300,8 @@ uint64_t PaneSim::hash() const {
   const std::lock_guard lock(state_->mutex);
   const Ledger& ledger = state_->ledger;
   uint64_t h = state_->drops.hash(0xcbf29ce484222325ull);
-  for (const int64_t value : {ledger.caught_pl, ledger.gone_pl(), state_->film.travelling_pl(), state_->film.film_pl()}) {
+  for (const int64_t value :
+       {ledger.caught_pl, ledger.gone_pl(), state_->film.travelling_pl(), state_->film.film_pl()}) {
     h = (h ^ static_cast<uint64_t>(value)) * 0x100000001b3ull + (h >> 29);
   }
   return h;

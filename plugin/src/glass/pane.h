@@ -1,5 +1,6 @@
-// One pane of glass: the water on it as drops, ticked at 120 Hz on the CPU, and the orders it gives to the film on the GPU and has back from
-// it (pane_gl.h). What it holds after a tick depends on the ticks submitted and on nothing else: not on how they came bundled, not on draws.
+// One pane of glass: the water on it as drops, ticked at 120 Hz on the CPU, and the orders it gives to the
+// film on the GPU and has back from it (pane_gl.h). What it holds after a tick depends on the ticks submitted
+// and on nothing else: not on how they came bundled, not on draws.
 #pragma once
 
 #include <array>
@@ -17,6 +18,7 @@
 namespace rg::glass {
 
 class PaneMap;
+struct PaneMesh;
 class Drops;
 struct FilmOrder;
 struct FilmReport;
@@ -26,8 +28,9 @@ enum class Glass { uncoated, dirty, coated, new_coating };
 
 struct PaneInfo {
   std::string name;
-  std::span<const glm::vec3> positions_m;  // vehicle frame; triangles counter-clockwise seen from the wet, outer side
-  std::span<const glm::vec2> uvs;          // one chart without overlap, any scale
+  std::span<const glm::vec3>
+      positions_m;                 // vehicle frame; triangles counter-clockwise seen from the wet, outer side
+  std::span<const glm::vec2> uvs;  // one chart without overlap, any scale
   std::span<const uint32_t> indices;
   Glass glass = Glass::uncoated;
   double advancing_rad = 0.0;  // 0 = the preset's
@@ -38,13 +41,13 @@ struct PaneInfo {
 };
 
 struct WiperInfo {
-  glm::dvec3 pivot_m{0.0};           // vehicle frame, as the rest
-  glm::dvec3 axis{0.0, 0.0, 1.0};    // unit, out of the glass
+  glm::dvec3 pivot_m{0.0};         // vehicle frame, as the rest
+  glm::dvec3 axis{0.0, 0.0, 1.0};  // unit, out of the glass
   glm::dvec3 rest_direction{1.0, 0.0, 0.0};
-  double arm_m = 0.5;                // pivot to the blade's middle
+  double arm_m = 0.5;  // pivot to the blade's middle
   double blade_m = 0.6;
-  double blade_angle_rad = 0.0;      // from the arm's direction to the blade's
-  double residual_film_m = 1e-7;     // what a pass leaves
+  double blade_angle_rad = 0.0;   // from the arm's direction to the blade's
+  double residual_film_m = 1e-7;  // what a pass leaves
 };
 
 // Drops of one size, as they fall.
@@ -54,7 +57,8 @@ struct SizeClass {
   double fall_speed_mps = 0.0;
 };
 
-// A blade's way during a tick: from `from_rad` to `extreme_rad` (a reversal) to `to_rad`; without a reversal extreme = to.
+// A blade's way during a tick: from `from_rad` to `extreme_rad` (a reversal) to `to_rad`; without a reversal
+// extreme = to.
 struct WiperStroke {
   uint32_t wiper = 0;
   double from_rad = 0.0;
@@ -68,15 +72,17 @@ inline constexpr int kMaxSizeClasses = 64;
 
 // All a pane knows of the world during a tick. Vectors in the vehicle's frame.
 struct PaneTick {
-  int64_t index = 0;                             // rg::Tick's
-  glm::dvec3 acceleration_mps2{0.0, 0.0, -9.81};  // what water at rest on the glass feels: gravity minus the vehicle's acceleration
-  glm::dvec3 air_mps{0.0};                       // of the free air relative to the vehicle
-  glm::dvec3 down{0.0, 0.0, -1.0};               // unit, to which rain falls in still air
+  int64_t index = 0;  // rg::Tick's
+  glm::dvec3 acceleration_mps2{
+      0.0, 0.0, -9.81};     // what water at rest on the glass feels: gravity minus the vehicle's acceleration
+  glm::dvec3 air_mps{0.0};  // of the free air relative to the vehicle
+  glm::dvec3 down{0.0, 0.0, -1.0};  // unit, to which rain falls in still air
   double temperature_c = 12.0;
   double humidity = 0.9;
-  uint32_t class_count = 0;                      // 0: no rain
+  uint32_t class_count = 0;  // 0: no rain
   std::array<SizeClass, kMaxSizeClasses> classes{};
-  std::array<float, kRegions> wet_share{};       // 0 sheltered .. 1 open to the rain, per region (see PaneMap::regionCentre)
+  std::array<float, kRegions>
+      wet_share{};  // 0 sheltered .. 1 open to the rain, per region (see PaneMap::regionCentre)
   uint32_t wiper_count = 0;
   std::array<WiperStroke, shared::kMaxGlassWipers> wipers{};
 };
@@ -87,7 +93,8 @@ struct PlacedDrop {
   double contact_angle_rad = 0.6;
 };
 
-// All in picolitres since the pane was made or reset. caught = on_glass + drained + wiped + blown + evaporated, to the last one.
+// All in picolitres since the pane was made or reset. caught = on_glass + drained + wiped + blown +
+// evaporated, to the last one.
 struct PaneStats {
   uint32_t drops = 0;
   double area_m2 = 0.0;
@@ -95,7 +102,8 @@ struct PaneStats {
   int64_t on_glass_pl = 0;  // film + drops + ridge + what travels between CPU and GPU, summed afresh
   int64_t drained_pl = 0, wiped_pl = 0, blown_pl = 0, evaporated_pl = 0;
   int64_t film_pl = 0, drops_pl = 0, ridge_pl = 0, travelling_pl = 0;
-  uint64_t dropped_ticks = 0;  // ticks not run because the GPU's part was not called for more than two seconds
+  uint64_t dropped_ticks =
+      0;  // ticks not run because the GPU's part was not called for more than two seconds
 };
 
 // Immutable; made after each submit that ran a tick, handed to the GL thread.
@@ -107,23 +115,28 @@ struct PaneSnapshot {
 // [thread: all functions may be called from any thread; the pane locks itself]
 class PaneSim {
  public:
-  // Throws std::invalid_argument naming the pane: uvs missing, overlapping or without area, degenerate mesh, indices out of range.
+  // Throws std::invalid_argument naming the pane: uvs missing, overlapping or without area, degenerate mesh,
+  // indices out of range.
   PaneSim(const PaneInfo& info, uint32_t id, uint64_t seed);
   ~PaneSim();
   PaneSim(const PaneSim&) = delete;
   PaneSim& operator=(const PaneSim&) = delete;
 
   const PaneMap& map() const;  // immutable after construction
+  const PaneMesh& mesh() const;
   const std::string& name() const;
 
-  // At most kMaxGlassWipers; throws std::invalid_argument. Setting an id again replaces it; its ridge's water goes back to the film.
+  // At most kMaxGlassWipers; throws std::invalid_argument. Setting an id again replaces it; its ridge's water
+  // goes back to the film.
   void setWiper(uint32_t id, const WiperInfo& info);
   void removeWiper(uint32_t id);
 
-  // Adds drops beside those there, counted as caught. Throws std::invalid_argument, placing none, when one lies off the pane or they are too many.
+  // Adds drops beside those there, counted as caught. Throws std::invalid_argument, placing none, when one
+  // lies off the pane or they are too many.
   void placeDrops(std::span<const PlacedDrop> drops);
 
-  // Runs a tick, or queues it where the film's answers that it needs are not there yet: then PaneGl::step runs it. Ticks ascend by one.
+  // Runs a tick, or queues it where the film's answers that it needs are not there yet: then PaneGl::step
+  // runs it. Ticks ascend by one.
   void submit(const PaneTick& tick);
 
   // Back to a dry pane; the ledger starts anew. PaneGl clears its film at its next step.
@@ -136,8 +149,9 @@ class PaneSim {
   uint64_t hash() const;
 
   // --- for pane_gl ---
-  // While a film is attached orders wait for it. Without one (headless hosts, before attach) water meant for the film is booked as drained at
-  // once and nothing is waited for. Detaching books what was on the film and under way as drained.
+  // While a film is attached orders wait for it. Without one (headless hosts, before attach) water meant for
+  // the film is booked as drained at once and nothing is waited for. Detaching books what was on the film and
+  // under way as drained.
   void attachFilm();
   void detachFilm();
   // Orders of film steps not yet fetched, oldest first.

@@ -1,5 +1,6 @@
-// The GPU's half of a pane: its film as whole picolitres in each texel of a grid, stepped at 60 Hz by compute shaders, and what the look needs
-// to draw it. Law and kernels: shaders/shared/glass_film.glsl, shaders/glass/.
+// The GPU's half of a pane: its film as whole picolitres in each texel of a grid, stepped at 60 Hz by compute
+// shaders, and what the look needs to draw it. Law and kernels: shaders/shared/glass_film.glsl,
+// shaders/glass/.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +14,36 @@ struct GladGLContext;
 
 namespace rg::glass {
 
-// GL programs that all panes of a context share.
+// GL programs that all panes of a context share. A leaky kernel loses 1 % of what passes through it: the
+// ledger's tests must see that.
+enum class FilmKernel { none, take, add, ridge, sweep, leave, step };
 class FilmPrograms;
-std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl);
+std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky = FilmKernel::none);
 
 // What is drawn of a pane; GL names stay the PaneGl's. Fields as in look_gl.h's LookPane.
 struct PaneDrawn {
-  uint32_t vertex_buffer = 0;  // floats {x, y, z, nx, ny, nz, u, v}: uv in [0, 1] over the grid (its whole texture)
-  uint32_t index_buffer = 0;   // uint32_t triangles
+  uint32_t vertex_buffer =
+      0;  // floats {x, y, z, nx, ny, nz, u, v}: uv in [0, 1] over the grid (its whole texture)
+  uint32_t index_buffer = 0;  // uint32_t triangles
   int32_t index_count = 0;
   glm::vec3 centre_m{0.0f};
   float radius_m = 0.0f;
-  uint32_t film = 0;           // GL_TEXTURE_2D R32I, picolitres in each texel; -1 off the pane
+  uint32_t position =
+      0;  // RGBA32F: middle of each texel, vehicle frame; carried on past the pane's edge, as `frame`
+  bool right_handed = true;  // along u cross along v points out of the glass
+  uint32_t film = 0;         // GL_TEXTURE_2D R32I, picolitres in each texel; -1 off the pane
   glm::ivec2 film_size{0};
   float film_unit_m3 = shared::kPicolitre_m3;
-  uint32_t metric = 0;         // RGBA32F: metres for a texel along u, along v, cosine between both, area in m^2
-  uint32_t frame = 0;          // RGBA16F array of 2 layers: unit tangents along u and v, vehicle frame
-  float texel_m = 0.0f;        // grid metres: uv = position_m / (texel_m * film_size)
-  uint32_t drop_buffer = 0;    // shared::GlassDropRecord
+  uint32_t metric = 0;       // RGBA32F: metres for a texel along u, along v, cosine between both, area in m^2
+  uint32_t frame = 0;        // RGBA16F array of 2 layers: unit tangents along u and v, vehicle frame
+  float texel_m = 0.0f;      // grid metres: uv = position_m / (texel_m * film_size)
+  uint32_t drop_buffer = 0;  // shared::GlassDropRecord
   int32_t drop_count = 0;
-  int64_t drop_tick = 0;       // the tick the records are of
+  int64_t drop_tick = 0;  // the tick the records are of
 };
 
-// [thread: GL, context current] GL state is not restored here (the caller's guard does): touches program, buffer bindings (SSBO 0..7, UBO 0),
-// image units 0..2, textures none.
+// [thread: GL, context current] GL state is not restored here (the caller's guard does): touches program,
+// buffer bindings (SSBO 0..7, UBO 0), image units 0..2, textures none.
 class PaneGl {
  public:
   PaneGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, std::shared_ptr<PaneSim> sim);
@@ -44,7 +51,8 @@ class PaneGl {
   PaneGl(const PaneGl&) = delete;
   PaneGl& operator=(const PaneGl&) = delete;
 
-  // Runs the film's steps that were ordered, hands back reports that are ready and waits for those a queued tick wants. Uploads drops.
+  // Runs the film's steps that were ordered, hands back reports that are ready and waits for those a queued
+  // tick wants. Uploads drops.
   void step();
   // As step, and waits for all: afterwards PaneSim::stats is exact.
   void finish();

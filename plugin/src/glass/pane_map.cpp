@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <tuple>
 
 namespace rg::glass {
 namespace {
 
-constexpr int kMostTexels = 4096;          // along a side
-constexpr double kLeastArea_m2 = 1e-12;    // of a triangle; a smaller one is a mistake of the mesh
+constexpr int kMostTexels = 4096;        // along a side
+constexpr double kLeastArea_m2 = 1e-12;  // of a triangle; a smaller one is a mistake of the mesh
 
 [[noreturn]] void refusePane(const PaneInfo& info, const std::string& why) {
   throw std::invalid_argument("pane '" + info.name + "': " + why);
@@ -47,21 +49,27 @@ bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y
 void checkMesh(const PaneInfo& info) {
   if (info.positions_m.size() < 3) refusePane(info, "has fewer than three vertices");
   if (info.uvs.size() != info.positions_m.size()) refusePane(info, "has no uv for each vertex");
-  if (info.indices.empty() || info.indices.size() % 3 != 0) refusePane(info, "has no whole number of triangles");
-  if (!(info.texel_m >= 0.5e-3 && info.texel_m <= 20e-3)) refusePane(info, "texel size must lie in 0.5 .. 20 mm");
+  if (info.indices.empty() || info.indices.size() % 3 != 0)
+    refusePane(info, "has no whole number of triangles");
+  if (!(info.texel_m >= 0.5e-3 && info.texel_m <= 20e-3))
+    refusePane(info, "texel size must lie in 0.5 .. 20 mm");
   for (const uint32_t i : info.indices) {
-    if (i >= info.positions_m.size()) refusePane(info, "index " + std::to_string(i) + " is past its vertices");
+    if (i >= info.positions_m.size())
+      refusePane(info, "index " + std::to_string(i) + " is past its vertices");
   }
   for (size_t i = 0; i < info.positions_m.size(); ++i) {
-    if (!finite(info.positions_m[i]) || !finite(info.uvs[i])) refusePane(info, "vertex " + std::to_string(i) + " is not finite");
+    if (!finite(info.positions_m[i]) || !finite(info.uvs[i]))
+      refusePane(info, "vertex " + std::to_string(i) + " is not finite");
   }
   double uv_area = 0.0;
   for (size_t t = 0; t < info.indices.size() / 3; ++t) uv_area += std::abs(triangleOf(info, t).uvArea());
   if (uv_area <= 0.0) refusePane(info, "its uvs have no area");
   for (size_t t = 0; t < info.indices.size() / 3; ++t) {
     const Triangle triangle = triangleOf(info, t);
-    if (glm::length(triangle.normal_area()) < kLeastArea_m2) refusePane(info, "triangle " + std::to_string(t) + " has no area");
-    if (std::abs(triangle.uvArea()) < 1e-12 * uv_area) refusePane(info, "triangle " + std::to_string(t) + " has no area in uv");
+    if (glm::length(triangle.normal_area()) < kLeastArea_m2)
+      refusePane(info, "triangle " + std::to_string(t) + " has no area");
+    if (std::abs(triangle.uvArea()) < 1e-12 * uv_area)
+      refusePane(info, "triangle " + std::to_string(t) + " has no area in uv");
   }
 }
 
@@ -94,15 +102,16 @@ void PaneMap::layGrid(const PaneInfo& info) {
   grid_.texel_m = info.texel_m;
   grid_.metres_per_uv = glm::sqrt(square / area);
   const glm::dvec2 texels = glm::ceil((most - least) * grid_.metres_per_uv / info.texel_m - 1e-6);
-  if (!(texels.x <= kMostTexels && texels.y <= kMostTexels)) refusePane(info, "needs more than 4096 texels along a side");
+  if (!(texels.x <= kMostTexels && texels.y <= kMostTexels))
+    refusePane(info, "needs more than 4096 texels along a side");
   grid_.size = glm::ivec2(texels) + 2;
   grid_.uv_origin = least - info.texel_m / grid_.metres_per_uv;
   texels_.resize(static_cast<size_t>(texelCount()));
 }
 
 void PaneMap::rasterise(const PaneInfo& info) {
-  constexpr double kOnEdge = 1e-7;    // of a barycentric coordinate: rounding on a shared edge
-  constexpr double kOverlap = 1e-3;   // clearly inside of two triangles
+  constexpr double kOnEdge = 1e-7;   // of a barycentric coordinate: rounding on a shared edge
+  constexpr double kOverlap = 1e-3;  // clearly inside of two triangles
   std::vector<uint8_t> clear(texels_.size(), 0);
   for (size_t t = 0; t < info.indices.size() / 3; ++t) {
     Triangle triangle = triangleOf(info, t);
@@ -113,15 +122,25 @@ void PaneMap::rasterise(const PaneInfo& info) {
     const glm::dvec2 high = glm::max(glm::max(triangle.uv[0], triangle.uv[1]), triangle.uv[2]);
     const glm::dvec2 e = triangle.uv[1] - triangle.uv[0], f = triangle.uv[2] - triangle.uv[0];
     const double inv = 1.0 / (e.x * f.y - e.y * f.x);
-    for (int y = std::max(1, static_cast<int>(low.y - 0.5)); y <= std::min(grid_.size.y - 2, static_cast<int>(high.y)); ++y) {
-      for (int x = std::max(1, static_cast<int>(low.x - 0.5)); x <= std::min(grid_.size.x - 2, static_cast<int>(high.x)); ++x) {
+    for (int y = std::max(1, static_cast<int>(low.y - 0.5));
+         y <= std::min(grid_.size.y - 2, static_cast<int>(high.y)); ++y) {
+      for (int x = std::max(1, static_cast<int>(low.x - 0.5));
+           x <= std::min(grid_.size.x - 2, static_cast<int>(high.x)); ++x) {
         const glm::dvec2 d = glm::dvec2(x + 0.5, y + 0.5) - triangle.uv[0];
         const double b = (d.x * f.y - d.y * f.x) * inv, c = (e.x * d.y - e.y * d.x) * inv;
         const double margin = std::min({1.0 - b - c, b, c});
         if (margin < -kOnEdge) continue;
         const size_t i = static_cast<size_t>(y * grid_.size.x + x);
         if (margin > kOverlap) {
-          if (clear[i] != 0) refusePane(info, "its uvs overlap at (" + std::to_string((triangle.uv[0].x + d.x) * grid_.texel_m / grid_.metres_per_uv.x + grid_.uv_origin.x) + ", " + std::to_string((triangle.uv[0].y + d.y) * grid_.texel_m / grid_.metres_per_uv.y + grid_.uv_origin.y) + ")");
+          if (clear[i] != 0)
+            refusePane(info,
+                       "its uvs overlap at (" +
+                           std::to_string((triangle.uv[0].x + d.x) * grid_.texel_m / grid_.metres_per_uv.x +
+                                          grid_.uv_origin.x) +
+                           ", " +
+                           std::to_string((triangle.uv[0].y + d.y) * grid_.texel_m / grid_.metres_per_uv.y +
+                                          grid_.uv_origin.y) +
+                           ")");
           clear[i] = 1;
         }
         PaneTexel& texel = texels_[i];
@@ -129,7 +148,8 @@ void PaneMap::rasterise(const PaneInfo& info) {
         texel.normal = glm::vec3(glm::normalize(normal_area));
         texel.along_x = glm::vec3(du / grid_.metres_per_uv.x);
         texel.along_y = glm::vec3(dv / grid_.metres_per_uv.y);
-        texel.area_m2 = glm::length(glm::cross(texel.along_x, texel.along_y)) * static_cast<float>(grid_.texel_m * grid_.texel_m);
+        texel.area_m2 = glm::length(glm::cross(texel.along_x, texel.along_y)) *
+                        static_cast<float>(grid_.texel_m * grid_.texel_m);
       }
     }
   }
@@ -160,18 +180,21 @@ void PaneMap::findDirections() {
     if (t.area_m2 > 0.0f) radius_m_ = std::max(radius_m_, glm::distance(t.position_m, centre_m_));
   }
   normal = glm::normalize(normal);
+  right_handed_ = glm::dot(glm::cross(along_x, along_y), normal) > 0.0;
   along_x /= area_m2_;
   along_y /= area_m2_;
   const glm::dvec3 vertical = std::abs(normal.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 up = glm::normalize(vertical - glm::dot(vertical, normal) * normal);
   const glm::dvec3 right = glm::cross(normal, up);  // seen from inside, looking out along the normal
-  glassFromGrid_ = glm::dmat2(glm::dot(along_x, right), glm::dot(along_x, up), glm::dot(along_y, right), glm::dot(along_y, up));
+  glassFromGrid_ = glm::dmat2(glm::dot(along_x, right), glm::dot(along_x, up), glm::dot(along_y, right),
+                              glm::dot(along_y, up));
   gridFromGlass_ = glm::inverse(glassFromGrid_);
   up_ = glm::normalize(gridFromGlass_ * glm::dvec2(0.0, 1.0));
 }
 
 int PaneMap::texelAt(glm::dvec2 grid_m) const {
-  const int x = static_cast<int>(std::floor(grid_m.x / grid_.texel_m)), y = static_cast<int>(std::floor(grid_m.y / grid_.texel_m));
+  const int x = static_cast<int>(std::floor(grid_m.x / grid_.texel_m)),
+            y = static_cast<int>(std::floor(grid_m.y / grid_.texel_m));
   if (x < 0 || y < 0 || x >= grid_.size.x || y >= grid_.size.y) return -1;
   const int index = y * grid_.size.x + x;
   return inside(index) ? index : -1;
@@ -190,13 +213,15 @@ std::optional<glm::dvec3> PaneMap::vehicleFromGrid(glm::dvec2 grid_m) const {
 }
 
 glm::dvec2 PaneMap::alongGlass(const PaneNode& node, const glm::dvec3& v) {
-  const double xx = glm::dot(node.along_x, node.along_x), xy = glm::dot(node.along_x, node.along_y), yy = glm::dot(node.along_y, node.along_y);
+  const double xx = glm::dot(node.along_x, node.along_x), xy = glm::dot(node.along_x, node.along_y),
+               yy = glm::dot(node.along_y, node.along_y);
   const double vx = glm::dot(v, node.along_x), vy = glm::dot(v, node.along_y);
   const double det = xx * yy - xy * xy;
   return {(vx * yy - vy * xy) / det * std::sqrt(xx), (vy * xx - vx * xy) / det * std::sqrt(yy)};
 }
 
-// A node takes the mean of the glass within a tile around it; one without glass takes that of the nearest nodes that have some.
+// A node takes the mean of the glass within a tile around it; one without glass takes that of the nearest
+// nodes that have some.
 void PaneMap::makeNodes() {
   constexpr int kTile = shared::kTileSize;
   nodes_across_ = (grid_.size + (kTile - 1)) / kTile + 1;
@@ -204,7 +229,8 @@ void PaneMap::makeNodes() {
   nodes_.assign(count, {});
   std::vector<double> weight(count, 0.0);
   tile_area_m2_.assign(static_cast<size_t>(tileCount().x * tileCount().y), 0.0f);
-  std::vector<PaneNode> sums(count, PaneNode{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), 0.0, 0.0});
+  std::vector<PaneNode> sums(
+      count, PaneNode{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), 0.0, 0.0});
   glm::dvec2 glass_low{1e30}, glass_high{-1e30};
   for (int i = 0; i < texelCount(); ++i) {
     if (!inside(i)) continue;
@@ -229,7 +255,8 @@ void PaneMap::makeNodes() {
         const size_t n = static_cast<size_t>(y * nodes_across_.x + x);
         if (known[n] > 0.0) continue;
         missing = true;
-        for (const glm::ivec2 d : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+        for (const glm::ivec2 d :
+             {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
           const glm::ivec2 q = glm::ivec2(x, y) + d;
           if (q.x < 0 || q.y < 0 || q.x >= nodes_across_.x || q.y >= nodes_across_.y) continue;
           const size_t m = static_cast<size_t>(q.y * nodes_across_.x + q.x);
@@ -249,12 +276,15 @@ void PaneMap::makeNodes() {
     node.normal = glm::normalize(sums[n].normal);
     node.along_x = sums[n].along_x / weight[n];
     node.along_y = sums[n].along_y / weight[n];
-    const glm::dvec2 place = glm::dvec2(static_cast<int>(n) % nodes_across_.x, static_cast<int>(n) / nodes_across_.x) * (kTile * grid_.texel_m);
+    const glm::dvec2 place =
+        glm::dvec2(static_cast<int>(n) % nodes_across_.x, static_cast<int>(n) / nodes_across_.x) *
+        (kTile * grid_.texel_m);
     const glm::dvec2 share = (glassFromGrid(place) - glass_low) / (glass_high - glass_low + 1e-9);
     node.across = std::clamp(2.0 * share.x - 1.0, -1.0, 1.0);
     node.height = std::clamp(share.y, 0.0, 1.0);
     const double area = glm::length(glm::cross(node.along_x, node.along_y)) * grid_.texel_m * grid_.texel_m;
-    node_metric_.emplace_back(static_cast<float>(glm::length(node.along_x) * grid_.texel_m), static_cast<float>(glm::length(node.along_y) * grid_.texel_m),
+    node_metric_.emplace_back(static_cast<float>(glm::length(node.along_x) * grid_.texel_m),
+                              static_cast<float>(glm::length(node.along_y) * grid_.texel_m),
                               static_cast<float>(1.0 / area), 0.0f);
   }
 }
@@ -262,7 +292,8 @@ void PaneMap::makeNodes() {
 void PaneMap::makeRegions() {
   for (int i = 0; i < texelCount(); ++i) {
     if (!inside(i)) continue;
-    const int x = (i % grid_.size.x) * kRegionsAcross / grid_.size.x, y = (i / grid_.size.x) * kRegionsAcross / grid_.size.y;
+    const int x = (i % grid_.size.x) * kRegionsAcross / grid_.size.x,
+              y = (i / grid_.size.x) * kRegionsAcross / grid_.size.y;
     const size_t r = static_cast<size_t>(y * kRegionsAcross + x);
     regions_[r].push_back(i);
     region_area_[r] += static_cast<double>(texel(i).area_m2) * glm::dvec3(texel(i).normal);
@@ -275,6 +306,26 @@ std::optional<glm::dvec3> PaneMap::regionCentre(int region) const {
   glm::dvec3 sum{0.0};
   for (const int i : texels) sum += glm::dvec3(texel(i).position_m);
   return sum / static_cast<double>(texels.size());
+}
+
+// Vertices at one place share their normal, though they may have been split for uv or shading.
+PaneMesh::PaneMesh(const PaneInfo& info) : indices(info.indices.begin(), info.indices.end()) {
+  const auto less = [](const glm::vec3& a, const glm::vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  std::map<glm::vec3, glm::dvec3, decltype(less)> normals(less);
+  for (size_t t = 0; t < indices.size() / 3; ++t) {
+    const glm::dvec3 area = triangleOf(info, t).normal_area();
+    for (size_t k = 0; k < 3; ++k)
+      normals.try_emplace(info.positions_m[indices[3 * t + k]], 0.0).first->second += area;
+  }
+  for (size_t i = 0; i < info.positions_m.size(); ++i) {
+    const glm::vec3& p = info.positions_m[i];
+    const auto found = normals.find(p);
+    const glm::vec3 n =
+        found == normals.end() ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(glm::normalize(found->second));
+    vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z, info.uvs[i].x, info.uvs[i].y});
+  }
 }
 
 }  // namespace rg::glass

@@ -1,4 +1,5 @@
-// Where on the pane is what: a grid of cells with positions, directions and areas in metres, made from any uv-mapped mesh.
+// Where on the pane is what: a grid of cells with positions, directions and areas in metres, made from any
+// uv-mapped mesh.
 #pragma once
 
 #include <array>
@@ -11,11 +12,12 @@
 
 namespace rg::glass {
 
-// Grid metres: the uv chart scaled so that it has metres on the average, x along u, y along v; the local metric does the rest.
+// Grid metres: the uv chart scaled so that it has metres on the average, x along u, y along v; the local
+// metric does the rest.
 struct PaneGrid {
-  glm::ivec2 size{0};             // texels; a rim of one texel lies off the pane
-  double texel_m = 0.0;           // grid metres
-  glm::dvec2 uv_origin{0.0};      // of the corner of texel (0, 0)
+  glm::ivec2 size{0};         // texels; a rim of one texel lies off the pane
+  double texel_m = 0.0;       // grid metres
+  glm::dvec2 uv_origin{0.0};  // of the corner of texel (0, 0)
   glm::dvec2 metres_per_uv{1.0};
 };
 
@@ -24,7 +26,7 @@ struct PaneTexel {
   glm::vec3 normal{0.0f};      // unit, outward
   glm::vec3 along_x{0.0f};     // change of position for one grid metre
   glm::vec3 along_y{0.0f};
-  float area_m2 = 0.0f;        // real; 0: off the pane
+  float area_m2 = 0.0f;  // real; 0: off the pane
 };
 
 // A corner of tiles: directions vary little over a tile, so fields are made here and are linear between.
@@ -39,8 +41,8 @@ struct PaneNode {
 
 class PaneMap {
  public:
-  // Throws std::invalid_argument naming the pane: uvs missing, without area or overlapping; degenerate triangles; indices out of range; NaN;
-  // smaller than a texel; more than 4096 texels along a side.
+  // Throws std::invalid_argument naming the pane: uvs missing, without area or overlapping; degenerate
+  // triangles; indices out of range; NaN; smaller than a texel; more than 4096 texels along a side.
   explicit PaneMap(const PaneInfo& info);
 
   const PaneGrid& grid() const { return grid_; }
@@ -53,18 +55,22 @@ class PaneMap {
   int texelAt(glm::dvec2 grid_m) const;
   glm::dvec2 middleOf(int index) const;
 
-  // Glass metres: right of the pane's middle seen from inside, and up. Exact on a flat pane; on a curved one distances shrink towards its rim.
+  // Glass metres: right of the pane's middle seen from inside, and up. Exact on a flat pane; on a curved one
+  // distances shrink towards its rim.
   glm::dvec2 gridFromGlass(glm::dvec2 glass_m) const { return middle_m_ + gridFromGlass_ * glass_m; }
   glm::dvec2 glassFromGrid(glm::dvec2 grid_m) const { return glassFromGrid_ * (grid_m - middle_m_); }
   // Vehicle position of a place on the pane; none off it.
   std::optional<glm::dvec3> vehicleFromGrid(glm::dvec2 grid_m) const;
-  glm::dvec2 up() const { return up_; }  // unit, grid axes: from the lower to the upper edge
+  bool rightHanded() const { return right_handed_; }  // along x cross along y points out of the glass
+  glm::dvec2 up() const { return up_; }               // unit, grid axes: from the lower to the upper edge
 
   // Corners of tiles, row by row.
   glm::ivec2 nodeCount() const { return nodes_across_; }
   glm::ivec2 tileCount() const { return nodes_across_ - 1; }
   const std::vector<PaneNode>& nodes() const { return nodes_; }
-  const std::vector<shared::vec4>& nodeMetric() const { return node_metric_; }  // metres for a texel along x, y; 1/area in 1/m^2; 0
+  const std::vector<shared::vec4>& nodeMetric() const {
+    return node_metric_;
+  }  // metres for a texel along x, y; 1/area in 1/m^2; 0
   const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }
   // A vector of the vehicle's frame as its components along the glass, grid axes, in its own unit.
   static glm::dvec2 alongGlass(const PaneNode& node, const glm::dvec3& v);
@@ -89,6 +95,7 @@ class PaneMap {
   double area_m2_ = 0.0;
   glm::dvec2 middle_m_{0.0}, up_{0.0, 1.0};
   glm::dmat2 gridFromGlass_{1.0}, glassFromGrid_{1.0};
+  bool right_handed_ = true;
   glm::ivec2 nodes_across_{0};
   std::vector<PaneNode> nodes_;
   std::vector<shared::vec4> node_metric_;
@@ -97,6 +104,14 @@ class PaneMap {
   std::array<glm::dvec3, kRegions> region_area_{};
   glm::vec3 centre_m_{0.0f};
   float radius_m_ = 0.0f;
+};
+
+// A copy of the mesh for those who draw it: floats {x, y, z, nx, ny, nz, u, v}, outward smooth normals, uv as
+// given.
+struct PaneMesh {
+  explicit PaneMesh(const PaneInfo& info);
+  std::vector<float> vertices;
+  std::vector<uint32_t> indices;
 };
 
 }  // namespace rg::glass

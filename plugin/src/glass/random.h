@@ -11,8 +11,9 @@ namespace rg::glass {
 class Stream {
  public:
   Stream(uint64_t seed, uint32_t a, uint64_t b, uint32_t c = 0) {
-    const shared::uvec4 h = shared::pcg4d({static_cast<uint32_t>(seed) ^ shared::pcg(c), static_cast<uint32_t>(seed >> 32) ^ a, static_cast<uint32_t>(b),
-                                           static_cast<uint32_t>(b >> 32) + 0x9e3779b9u * (c + 1u)});
+    const shared::uvec4 h =
+        shared::pcg4d({static_cast<uint32_t>(seed) ^ shared::pcg(c), static_cast<uint32_t>(seed >> 32) ^ a,
+                       static_cast<uint32_t>(b), static_cast<uint32_t>(b >> 32) + 0x9e3779b9u * (c + 1u)});
     key_ = h.x;
     weyl_ = h.y | 1u;
   }

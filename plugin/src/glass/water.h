@@ -1,4 +1,5 @@
-// Water and what glass does to it: constants, the presets of surfaces, and the geometry of a sessile drop as a spherical cap.
+// Water and what glass does to it: constants, the presets of surfaces, and the geometry of a sessile drop as
+// a spherical cap.
 #pragma once
 
 #include <cmath>
@@ -9,8 +10,8 @@
 
 namespace rg::glass {
 
-inline constexpr double kGamma_n_m = 0.072;     // surface tension of water
-inline constexpr double kMu_pa_s = 1.0e-3;      // viscosity
+inline constexpr double kGamma_n_m = 0.072;  // surface tension of water
+inline constexpr double kMu_pa_s = 1.0e-3;   // viscosity
 inline constexpr double kRho_kg_m3 = 1000.0;
 inline constexpr double kRhoAir_kg_m3 = 1.2;
 inline constexpr double kPicolitresPerM3 = 1.0e15;
@@ -18,17 +19,18 @@ inline constexpr double kPicolitresPerM3 = 1.0e15;
 inline int64_t picolitres(double volume_m3) { return std::llround(volume_m3 * kPicolitresPerM3); }
 inline double cubicMetres(int64_t volume_pl) { return static_cast<double>(volume_pl) / kPicolitresPerM3; }
 
-// What a surface does to water. Contact angles as in physics.md (advancing / receding 40/10, 60/20, 110/90, 105/98 degrees). The film's
-// thresholds are tuned by eye within the orders of magnitude given there: below a few um a film pins or breaks into drops.
+// What a surface does to water. Contact angles as in physics.md (advancing / receding 40/10, 60/20, 110/90,
+// 105/98 degrees). The film's thresholds are tuned by eye within the orders of magnitude given there: below a
+// few um a film pins or breaks into drops.
 struct Surface {
   double advancing_rad, receding_rad;
-  double friction;       // b of the sliding law F = F0 + b w eta U; 20..200 (Li et al. 2023)
-  double pin_m;          // a thinner film does not move
-  double front_m;        // a thinner film does not run onto dry glass
-  double rupture_m;      // a thinner film gathers into drops ...
-  double rupture_hz;     // ... so often for each texel
-  double wetting_m;      // a tile with more film than this swallows drops that fall on it
-  double trail_film_m;   // film a sliding drop leaves at 0.1 m/s
+  double friction;      // b of the sliding law F = F0 + b w eta U; 20..200 (Li et al. 2023)
+  double pin_m;         // a thinner film does not move
+  double front_m;       // a thinner film does not run onto dry glass
+  double rupture_m;     // a thinner film gathers into drops ...
+  double rupture_hz;    // ... so often for each texel
+  double wetting_m;     // a tile with more film than this swallows drops that fall on it
+  double trail_film_m;  // film a sliding drop leaves at 0.1 m/s
 };
 Surface surfaceOf(Glass glass);
 
@@ -39,7 +41,8 @@ inline double capShape(double theta_rad) {
   return std::numbers::pi * (1.0 - c) * (1.0 - c) * (2.0 + c) / (3.0 * s * s * s);
 }
 
-// Height of the cap of volume V over a base of radius R: the real root of h^3 + 3 R^2 h - 6 V / pi = 0 (Cardano).
+// Height of the cap of volume V over a base of radius R: the real root of h^3 + 3 R^2 h - 6 V / pi = 0
+// (Cardano).
 inline double capHeight(double volume_m3, double base_radius_m) {
   const double q = 3.0 * volume_m3 / std::numbers::pi;
   const double r3 = base_radius_m * base_radius_m * base_radius_m;
@@ -48,7 +51,9 @@ inline double capHeight(double volume_m3, double base_radius_m) {
 }
 
 // Contact angle of a cap from its height and base: tan(theta / 2) = h / R.
-inline double capAngle(double height_m, double base_radius_m) { return 2.0 * std::atan2(height_m, base_radius_m); }
+inline double capAngle(double height_m, double base_radius_m) {
+  return 2.0 * std::atan2(height_m, base_radius_m);
+}
 
 // The force that holds a drop of base width w (Furmidge; k = 24 / pi^3, ElSherbini & Jacobi 2006).
 inline double retention_n(double width_m, double cos_receding, double cos_advancing) {
@@ -56,7 +61,8 @@ inline double retention_n(double width_m, double cos_receding, double cos_advanc
   return kShape * kGamma_n_m * width_m * (cos_receding - cos_advancing);
 }
 
-// Mass of water vapour in saturated air, kg/m^3: Magnus' formula (Sonntag 1990) and the ideal gas; 0.0173 at 20 C.
+// Mass of water vapour in saturated air, kg/m^3: Magnus' formula (Sonntag 1990) and the ideal gas; 0.0173 at
+// 20 C.
 inline double saturatedVapour_kg_m3(double temperature_c) {
   const double pressure_pa = 611.2 * std::exp(17.62 * temperature_c / (243.12 + temperature_c));
   return pressure_pa / (461.5 * (temperature_c + 273.15));
@@ -65,12 +71,14 @@ inline double saturatedVapour_kg_m3(double temperature_c) {
 inline constexpr double kVapourDiffusivity_m2_s = 2.5e-5;
 
 // Hu & Larson 2002: -dm/dt of a sessile drop in still air, kg/s; theta in rad, humidity 0..1.
-inline double evaporation_kg_s(double base_radius_m, double theta_rad, double humidity, double saturated_kg_m3) {
+inline double evaporation_kg_s(double base_radius_m, double theta_rad, double humidity,
+                               double saturated_kg_m3) {
   return std::numbers::pi * base_radius_m * kVapourDiffusivity_m2_s * (1.0 - humidity) * saturated_kg_m3 *
          (0.27 * theta_rad * theta_rad + 1.30);
 }
 
-// How much faster air that moves past takes vapour up than still air: Froessling 1938, 1 + 0.276 Re^1/2 Sc^1/3, Re of the base's diameter.
+// How much faster air that moves past takes vapour up than still air: Froessling 1938, 1 + 0.276 Re^1/2
+// Sc^1/3, Re of the base's diameter.
 inline double ventilation(double speed_mps, double diameter_m) {
   return 1.0 + 0.276 * std::sqrt(speed_mps * diameter_m / 1.5e-5) * 0.85;
 }

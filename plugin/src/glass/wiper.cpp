@@ -51,8 +51,9 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot)
   swept_ = std::move(swept);
 }
 
-// The blade's points at angle t are P(s) = a e(t) + s e(t + b), |s| <= L/2, so |P|^2 = a^2 + 2 a s cos b + s^2: a place at distance r is met where
-// s = -a cos b +- sqrt(r^2 - a^2 sin^2 b), at the angle its own direction has more than the point's at t = 0.
+// The blade's points at angle t are P(s) = a e(t) + s e(t + b), |s| <= L/2, so |P|^2 = a^2 + 2 a s cos b +
+// s^2: a place at distance r is met where s = -a cos b +- sqrt(r^2 - a^2 sin^2 b), at the angle its own
+// direction has more than the point's at t = 0.
 Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m) const {
   const glm::dvec3 d = vehicle_m - info_.pivot_m;
   const double x = glm::dot(d, info_.rest_direction), y = glm::dot(d, side_);
@@ -84,7 +85,8 @@ std::pair<int, int> Wiper::range(const Sweep& sweep) const {
 
 bool Wiper::mayCross(int texel, const Sweep& sweep) const {
   const auto [least, most] = texel_angles_[static_cast<size_t>(texel)];
-  // A texel is 3 mm and the nearest blade 0.05 m from its pivot: inside it angles differ by less than 0.1 rad.
+  // A texel is 3 mm and the nearest blade 0.05 m from its pivot: inside it angles differ by less than 0.1
+  // rad.
   constexpr float kInTexel_rad = 0.1f;
   const auto low = static_cast<float>(std::min(sweep.before_rad, sweep.now_rad)) - kInTexel_rad;
   const auto high = static_cast<float>(std::max(sweep.before_rad, sweep.now_rad)) + kInTexel_rad;
@@ -92,7 +94,7 @@ bool Wiper::mayCross(int texel, const Sweep& sweep) const {
 }
 
 std::vector<std::vector<int>> Wiper::aheadOf(double extreme_rad, double direction) const {
-  constexpr size_t kEnough = 8;        // texels for a piece's water
+  constexpr size_t kEnough = 8;                          // texels for a piece's water
   const double near_rad = 2.5 * texel_m_ / info_.arm_m;  // a ridge is some millimetres wide
   std::vector<std::vector<int>> out(shared::kBladeSegments);
   const auto [first, last] = range({extreme_rad, extreme_rad + direction * 4.0 * near_rad});

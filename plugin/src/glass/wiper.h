@@ -1,5 +1,6 @@
-// A wiper's blade over a pane: at which angle it crosses each texel, and from that what a stroke sweeps. No rate of ticks leaves gaps, because a
-// texel is wiped when its angle lies in (before, now], whatever the step between both.
+// A wiper's blade over a pane: at which angle it crosses each texel, and from that what a stroke sweeps. No
+// rate of ticks leaves gaps, because a texel is wiped when its angle lies in (before, now], whatever the step
+// between both.
 #pragma once
 
 #include <memory>
@@ -22,7 +23,8 @@ struct Sweep {
   double before_rad = 0.0;
   double now_rad = 0.0;
   bool covers(double angle_rad) const {
-    return now_rad > before_rad ? angle_rad > before_rad && angle_rad <= now_rad : angle_rad < before_rad && angle_rad >= now_rad;
+    return now_rad > before_rad ? angle_rad > before_rad && angle_rad <= now_rad
+                                : angle_rad < before_rad && angle_rad >= now_rad;
   }
 };
 
@@ -42,7 +44,8 @@ class Wiper {
   // A place on this texel may be crossed: drops elsewhere need no closer look.
   bool mayCross(int texel, const Sweep& sweep) const;
 
-  // Texels next to the blade where it turns round at `extreme_rad`, ahead of it in its old direction, for each piece; none: the water leaves the glass.
+  // Texels next to the blade where it turns round at `extreme_rad`, ahead of it in its old direction, for
+  // each piece; none: the water leaves the glass.
   std::vector<std::vector<int>> aheadOf(double extreme_rad, double direction) const;
   // The piece is not over the pane at this angle.
   bool offGlass(int segment, double angle_rad) const;
@@ -53,8 +56,8 @@ class Wiper {
   glm::dvec3 side_{0.0};
   double texel_m_;
   std::shared_ptr<const std::vector<shared::SweptTexel>> swept_;
-  std::vector<double> angles_;                          // of swept_
-  std::vector<std::pair<float, float>> texel_angles_;   // least and most of a texel, for mayCross
+  std::vector<double> angles_;                         // of swept_
+  std::vector<std::pair<float, float>> texel_angles_;  // least and most of a texel, for mayCross
   std::vector<std::pair<double, double>> segment_angles_;
 };
 

@@ -1,0 +1,77 @@
+// A pane's film on the GPU: two textures of whole picolitres, the ridges of its blades, and batches of steps
+// under way.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gl/program.h"
+#include "glass/film_order.h"
+#include "glass/pane_gl.h"
+#include "glass/pane_map.h"
+
+namespace rg::glass {
+
+class FilmPrograms {
+ public:
+  FilmPrograms(const GladGLContext& gl, FilmKernel leaky);
+  gl::Program take, add, ridge, sweep, leave, step;
+};
+
+class FilmGl {
+ public:
+  FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map);
+
+  // Puts the steps in the GPU's queue, as batches.
+  void run(std::vector<FilmOrder>&& orders);
+  bool pending() const { return !pending_.empty(); }
+  // Reports of the oldest batch once the GPU is done with it; `wait` waits for it. Empty: not yet.
+  std::vector<FilmReport> collect(bool wait);
+
+  const gl::Texture2D& film() const { return films_[current_]; }
+  std::vector<int32_t> readFilm() const;
+  std::vector<int32_t> readRidges() const;
+  void abandon();
+
+ private:
+  struct Batch {
+    gl::Buffer upload, report;
+    const unsigned char* mapped = nullptr;
+    gl::Fence fence;
+    struct Step {
+      int64_t step;
+      size_t takes;
+      bool clear;
+    };
+    std::vector<Step> steps;
+  };
+  struct Swept {
+    std::shared_ptr<const std::vector<shared::SweptTexel>> list;
+    gl::Buffer buffer;
+  };
+
+  void runBatch(std::span<FilmOrder> orders);
+  void runStep(const FilmOrder& order, const Batch& batch, size_t upload_at, size_t report_at);
+  void clear();
+  std::unique_ptr<Batch> freeBatch(size_t upload_bytes);
+  FilmReport read(const Batch& batch, size_t index);
+  GLuint sweptBuffer(const SweepOrder& order);
+  void dispatch(const gl::Program& program, size_t count);
+
+  const GladGLContext& gl_;
+  std::shared_ptr<FilmPrograms> programs_;
+  const PaneMap& map_;
+  size_t tiles_;
+  gl::Texture2D films_[2];
+  size_t current_ = 0;
+  gl::Buffer ridges_, metric_;
+  std::vector<Swept> swept_;
+  std::deque<std::unique_ptr<Batch>> pending_;
+  std::vector<std::unique_ptr<Batch>> free_;
+  uint32_t wiped_before_ = 0;
+};
+
+}  // namespace rg::glass

@@ -1,0 +1,191 @@
+#include "glass/pane_gl.h"
+
+#include "gl/objects.h"
+#include "glass/film_gl.h"
+#include "glass/pane_map.h"
+
+namespace rg::glass {
+namespace {
+
+// The nearest texel with glass for each texel, so that maps can be read a little past the pane's edge.
+std::vector<int> nearestGlass(const PaneMap& map) {
+  const glm::ivec2 size = map.grid().size;
+  std::vector<int> nearest(static_cast<size_t>(map.texelCount()), -1), front;
+  for (int i = 0; i < map.texelCount(); ++i) {
+    if (!map.inside(i)) continue;
+    nearest[static_cast<size_t>(i)] = i;
+    front.push_back(i);
+  }
+  for (std::vector<int> next; !front.empty(); front = std::exchange(next, {})) {
+    for (const int i : front) {
+      const glm::ivec2 at(i % size.x, i / size.x);
+      for (const glm::ivec2 d : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+        const glm::ivec2 q = at + d;
+        if (q.x < 0 || q.y < 0 || q.x >= size.x || q.y >= size.y) continue;
+        int& known = nearest[static_cast<size_t>(q.y * size.x + q.x)];
+        if (known >= 0) continue;
+        known = nearest[static_cast<size_t>(i)];
+        next.push_back(q.y * size.x + q.x);
+      }
+    }
+  }
+  return nearest;
+}
+
+struct Maps {
+  gl::Texture2D position, metric;
+  gl::Texture2DArray frame;
+};
+
+Maps makeMaps(const GladGLContext& gl, const PaneMap& map) {
+  const glm::ivec2 size = map.grid().size;
+  const std::vector<int> nearest = nearestGlass(map);
+  std::vector<glm::vec4> position, metric, along_u, along_v;
+  for (int i = 0; i < map.texelCount(); ++i) {
+    const int glass = nearest[static_cast<size_t>(i)];
+    const PaneTexel& t = map.texel(glass);
+    const glm::vec2 d(map.middleOf(i) - map.middleOf(glass));
+    const glm::vec3 u = glm::normalize(t.along_x), v = glm::normalize(t.along_y);
+    const auto texel_m = static_cast<float>(map.grid().texel_m);
+    position.emplace_back(t.position_m + d.x * t.along_x + d.y * t.along_y, 1.0f);
+    metric.emplace_back(glm::length(t.along_x) * texel_m, glm::length(t.along_y) * texel_m, glm::dot(u, v),
+                        t.area_m2);
+    along_u.emplace_back(u, 0.0f);
+    along_v.emplace_back(v, 0.0f);
+  }
+  Maps maps;
+  maps.position = gl::Texture2D(gl, GL_RGBA32F, size.x, size.y);
+  maps.metric = gl::Texture2D(gl, GL_RGBA32F, size.x, size.y);
+  maps.frame = gl::Texture2DArray(gl, GL_RGBA16F, size.x, size.y, 2);
+  maps.position.write(0, 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, position.data());
+  maps.metric.write(0, 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, metric.data());
+  maps.frame.write(0, 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, along_u.data());
+  maps.frame.write(0, 0, 0, 1, size.x, size.y, GL_RGBA, GL_FLOAT, along_v.data());
+  for (gl::Texture* texture : std::initializer_list<gl::Texture*>{&maps.position, &maps.metric, &maps.frame})
+    texture->filter(GL_LINEAR, GL_LINEAR);
+  return maps;
+}
+
+// The mesh with uv that spans the grid from 0 to 1.
+std::vector<float> gridVertices(const PaneMesh& mesh, const PaneGrid& grid) {
+  std::vector<float> vertices = mesh.vertices;
+  const glm::dvec2 extent = glm::dvec2(grid.size) * grid.texel_m;
+  for (size_t i = 0; i + 7 < vertices.size(); i += 8) {
+    const glm::dvec2 uv(vertices[i + 6], vertices[i + 7]);
+    const glm::vec2 out((uv - grid.uv_origin) * grid.metres_per_uv / extent);
+    vertices[i + 6] = out.x;
+    vertices[i + 7] = out.y;
+  }
+  return vertices;
+}
+
+}  // namespace
+
+struct PaneGl::Parts {
+  Parts(const GladGLContext& context, std::shared_ptr<FilmPrograms> programs, std::shared_ptr<PaneSim> pane)
+      : gl(context),
+        sim(std::move(pane)),
+        film(gl, std::move(programs), sim->map()),
+        maps(makeMaps(gl, sim->map())),
+        vertices(gl, std::span<const float>(gridVertices(sim->mesh(), sim->map().grid()))),
+        indices(gl, std::span<const uint32_t>(sim->mesh().indices)) {}
+
+  void run(bool wait_for_all);
+  void uploadDrops();
+
+  const GladGLContext& gl;
+  std::shared_ptr<PaneSim> sim;
+  FilmGl film;
+  Maps maps;
+  gl::Buffer vertices, indices, drops;
+  std::shared_ptr<const PaneSnapshot> drawn;
+};
+
+PaneGl::PaneGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, std::shared_ptr<PaneSim> sim)
+    : parts_(std::make_unique<Parts>(gl, std::move(programs), std::move(sim))) {
+  parts_->sim->attachFilm();
+}
+
+PaneGl::~PaneGl() { parts_->sim->detachFilm(); }
+
+// Ticks wait for reports, reports for steps, steps for the orders of ticks: round and round until no tick
+// waits.
+void PaneGl::Parts::run(bool wait_for_all) {
+  for (;;) {
+    film.run(sim->fetchOrders());
+    const bool must_wait = wait_for_all || sim->waiting();
+    std::vector<FilmReport> reports = film.collect(must_wait);
+    if (reports.empty()) break;
+    for (FilmReport& report : reports) sim->deliver(std::move(report));
+  }
+}
+
+void PaneGl::Parts::uploadDrops() {
+  auto now = sim->snapshot();
+  if (now == drawn) return;
+  drawn = std::move(now);
+  const size_t bytes = drawn->drops.size() * sizeof(shared::GlassDropRecord);
+  if (drops.bytes() < bytes || !drops)
+    drops = gl::Buffer(gl, std::max<size_t>(bytes * 2, 64 * sizeof(shared::GlassDropRecord)));
+  if (bytes > 0) drops.write(0, drawn->drops.data(), bytes);
+}
+
+void PaneGl::step() {
+  parts_->run(false);
+  parts_->uploadDrops();
+}
+
+void PaneGl::finish() {
+  parts_->run(true);
+  parts_->uploadDrops();
+}
+
+PaneDrawn PaneGl::drawn() const {
+  const PaneMap& map = parts_->sim->map();
+  PaneDrawn out;
+  out.vertex_buffer = parts_->vertices.name();
+  out.index_buffer = parts_->indices.name();
+  out.index_count = static_cast<int32_t>(parts_->sim->mesh().indices.size());
+  out.centre_m = map.centre_m();
+  out.radius_m = map.radius_m();
+  out.film = parts_->film.film().name();
+  out.film_size = map.grid().size;
+  out.position = parts_->maps.position.name();
+  out.metric = parts_->maps.metric.name();
+  out.frame = parts_->maps.frame.name();
+  out.right_handed = map.rightHanded();
+  out.texel_m = static_cast<float>(map.grid().texel_m);
+  if (parts_->drawn) {
+    out.drop_buffer = parts_->drops.name();
+    out.drop_count = static_cast<int32_t>(parts_->drawn->drops.size());
+    out.drop_tick = parts_->drawn->tick;
+  }
+  return out;
+}
+
+std::vector<int32_t> PaneGl::readFilm() {
+  finish();
+  return parts_->film.readFilm();
+}
+
+uint64_t PaneGl::hash() {
+  finish();
+  uint64_t h = 0xcbf29ce484222325ull;
+  for (const std::vector<int32_t>& list : {parts_->film.readFilm(), parts_->film.readRidges()}) {
+    for (const int32_t value : list) h = (h ^ static_cast<uint32_t>(value)) * 0x100000001b3ull + (h >> 29);
+  }
+  return h;
+}
+
+void PaneGl::abandon() {
+  Parts& p = *parts_;
+  p.film.abandon();
+  p.maps.position.forget();
+  p.maps.metric.forget();
+  p.maps.frame.forget();
+  p.vertices.forget();
+  p.indices.forget();
+  p.drops.forget();
+}
+
+}  // namespace rg::glass
