@@ -41,6 +41,24 @@ def _markings(chunks):
                 _ribbon(chunks, first, first + 20, d - 0.06, d + 0.06, "paint", (1.0, 1.0), 0.008)
 
 
+def _repairs(chunks):
+    """What years have left on the road: dark and pale patches, sealed seams, manholes in the village, a crossing for walkers."""
+    rng = np.random.default_rng(31)
+    for s in np.arange(-60, 1800, 37.0):
+        if route.TUNNEL_IN - 12 < s < route.TUNNEL_OUT + 2:
+            continue
+        lane, wide = rng.choice([-1.75, 1.75]), rng.uniform(0.45, 1.3)
+        d, first, long = lane + rng.uniform(-0.3, 0.3), s + rng.uniform(0, 20), rng.uniform(1.5, 9.0)
+        material = "asphalt_patch" if rng.random() < 0.6 else "asphalt_old"
+        _ribbon(chunks, first, first + long, d - wide, d + wide, material, (route.LANE_M, 7.0), 0.004)
+    for s, d in ((131, -1.6), (178, 1.4), (222, -1.5), (268, 1.7), (304, -1.6)):
+        a = np.linspace(0, 2 * np.pi, 15)[:-1]
+        disc = np.stack([0.36 * np.cos(a), 0.36 * np.sin(a), 0 * a + 0.006], axis=1)
+        chunks.at(s).add(local(route.frame(s, d), disc), [list(range(14))], "steel_dark", disc[:, :2])
+    for d in np.arange(-3.0, 3.1, 1.0):
+        _ribbon(chunks, 198.0, 201.5, d - 0.25, d + 0.25, "paint", (1.0, 1.0), 0.009)
+
+
 def _shoulders(chunks):
     """Gravel between asphalt and grass, where there is no pavement, tunnel or forecourt."""
     for first in np.arange(route.S_FIRST, route.S_LAST, 20.0):
@@ -160,12 +178,42 @@ def _wires(chunks, first, last, d, spacing=42.0):
             chunks.at(s).tube(a + (b - a) * t - np.array([0, 0, 1.0]) * 4 * 0.7 * t * (1 - t), 0.018, 3, "black")
 
 
+# Timber fences along meadows: first and last s, d.
+FENCES = [(372, 448, 11.5), (380, 440, -10.5), (985, 1140, 10.5), (1150, 1270, -9.0), (1330, 1440, 10.5), (1620, 1760, -9.5), (-120, -10, 12.5)]
+
+
+def _fence(chunks, first, last, d):
+    for s in np.arange(first, last, 3.2):
+        ends = terrain.at(np.array([s, s + 3.2]), d)
+        side = route.frame(s)[1][1]
+        frame = (ends[0], np.array([(ends[1] - ends[0]) / 3.2, side, [0, 0, 1.0]]))
+        mesh = chunks.at(s)
+        mesh.box(frame, (-0.06, -0.06, -0.4), (0.06, 0.06, 1.15), "wood", 1.0, skip="z")
+        for z in (0.45, 0.9):
+            mesh.box(frame, (0.0, -0.09, z), (3.2, -0.05, z + 0.12), "wood", 1.0, skip="xX")
+
+
+def _hay_bales():
+    mesh, a = Mesh(), np.linspace(0, 2 * np.pi, 15)
+    mesh.tube([(0, -0.6, 0.72), (0, 0.6, 0.72)], 0.75, 14, "hay", 1.5)
+    for y in (-0.6, 0.6):
+        disc = np.stack([0.75 * np.cos(a[:-1]), 0 * a[:-1] + y, 0.72 + 0.75 * np.sin(a[:-1])], axis=1)
+        mesh.add(disc, [list(range(14)) if y < 0 else list(range(14))[::-1]], "hay", disc[:, [0, 2]] / 1.5)
+    data, rng = mesh.data("hay_bale"), np.random.default_rng(8)
+    for k, (s, d) in enumerate([(1160, -30), (1172, -42), (1186, -27), (1204, -48), (1216, -33), (1350, 34), (1362, 46), (1378, 30), (-30, -34), (-52, -26)]):
+        place(f"hay_bale_{k}", data, (terrain.at(s, d), route.frame(s, turn=rng.uniform(0, 6.28))[1]))
+
+
 def build(ground, furniture):
     _surface(ground)
     _markings(ground)
+    _repairs(ground)
     _shoulders(ground)
     for first, last, d in RAILS:
         _rail(furniture, first, last, d)
+    for first, last, d in FENCES:
+        _fence(furniture, first, last, d)
+    _hay_bales()
     _marker_posts(furniture)
     _signs(furniture)
     _wires(furniture, -170, 90, 13.5)

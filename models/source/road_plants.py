@@ -216,13 +216,13 @@ def _both_sides(mesh, corners, material, uv, normal=None):
 def _tufts(chunks):
     """Taller grass on verge and ditch: pairs of crossing cards, normals up so that they melt into the ground."""
     rng = np.random.default_rng(55)
-    for s in np.arange(-60, 1800, 1.5):
+    for s in np.arange(-60, 1800, 1.0):
         side = rng.choice([-1, 1])
         d, s = side * (5.3 + 3.6 * rng.random()), s + rng.uniform(-1, 1)
         wet = route.VILLAGE_IN - 8 < s < route.VILLAGE_OUT + 8 or route.TUNNEL_IN - 6 < s < route.TUNNEL_OUT + 6
         if wet or abs(s - route.BRIDGE_S) < 12 or (d < 0 and route.FORECOURT_IN - 10 < s < route.FORECOURT_OUT + 10):
             continue
-        foot, size = terrain.at(s, d), rng.uniform(0.3, 0.6)
+        foot, size = terrain.at(s, d), rng.uniform(0.22, 0.55)
         a = rng.uniform(0, 3.14)
         for turn in (0.0, 1.57):
             right = np.array([np.cos(a + turn), np.sin(a + turn), 0]) * size

@@ -29,7 +29,7 @@ def normal_map(height_px):
 # --- carriageway -----------------------------------------------------------------------------------------------------
 
 def _stones(n=512):
-    return 0.6 * noise(n, 0.9, 1) + 0.5 * noise(n, 1.8, 2)
+    return 0.8 * noise(n, 0.8, 1) + 0.3 * noise(n, 1.6, 2)
 
 
 def _wheel_tracks(n=512):
@@ -42,7 +42,7 @@ def _wheel_tracks(n=512):
 def asphalt():
     """One lane wide (3.5 m), 7 m long."""
     n = 512
-    grey = 0.335 + 0.045 * np.clip(_stones(), -2.2, 2.6) + 0.012 * noise(n, 14, 4) - 0.035 * _wheel_tracks()
+    grey = 0.325 + 0.040 * np.clip(_stones(), -2.2, 2.6) + 0.008 * noise(n, 20, 4, (0.5, 1)) - 0.035 * _wheel_tracks()
     cracks = np.exp(-np.abs(noise(n, 26, 5)) * 55) * (noise(n, 40, 6) > 0.9)
     seam = np.exp(-0.5 * ((np.arange(n) - 5 + 2 * np.sin(np.arange(n) / n * 6.283)[:, None]) / 1.6) ** 2)
     grey = grey - 0.10 * cracks - 0.08 * seam

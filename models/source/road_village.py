@@ -124,10 +124,11 @@ def _street_plots():
 
 
 def _on_ground(chunks, s0, s1, d0, d1, material, tile_m, lift=0.06):
-    """A patch laid over the ground between two stations and two distances."""
+    """A patch laid over the ground between two stations and two distances; its sides go down into the ground."""
     low, high = sorted((d0, d1))
-    s, d = np.meshgrid([s0, s1], np.linspace(low, high, 5), indexing="ij")
-    grid = terrain.at(s, d) + [0, 0, lift]
+    s, d = np.meshgrid([s0 - 0.08, s0, s1, s1 + 0.08], np.linspace(low, high, 5), indexing="ij")
+    grid = terrain.at(s, d)
+    grid[..., 2] += np.array([-0.15, lift, lift, -0.15])[:, None]
     chunks.at(s0).grid(grid, material, np.stack([s, d], axis=-1) / tile_m)
 
 

@@ -61,15 +61,9 @@ void restoreRanges(const GladGLContext& gl, const std::array<BufferState::Range,
 
 }  // namespace
 
-void ProgramState::save(const Context& context) {
-  program = integer(context.gl, GL_CURRENT_PROGRAM);
-  pipeline = integer(context.gl, GL_PROGRAM_PIPELINE_BINDING);
-}
+void ProgramState::save(const Context& context) { program = integer(context.gl, GL_CURRENT_PROGRAM); }
 
-void ProgramState::restore(const Context& context) const {
-  context.gl.UseProgram(asName(program));
-  context.gl.BindProgramPipeline(asName(pipeline));
-}
+void ProgramState::restore(const Context& context) const { context.gl.UseProgram(asName(program)); }
 
 void VertexState::save(const Context& context) {
   vertex_array = integer(context.gl, GL_VERTEX_ARRAY_BINDING);

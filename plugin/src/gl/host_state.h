@@ -45,8 +45,9 @@ inline constexpr std::array<GLenum, 8> kClipSwitches{GL_CLIP_DISTANCE0, GL_CLIP_
                                                      GL_CLIP_DISTANCE3, GL_CLIP_DISTANCE4, GL_CLIP_DISTANCE5,
                                                      GL_CLIP_DISTANCE6, GL_CLIP_DISTANCE7};
 
+// A pipeline object shows only while no program is in use, so it can stay bound.
 struct ProgramState {
-  GLint program = 0, pipeline = 0;
+  GLint program = 0;
   void save(const Context& context);
   void restore(const Context& context) const;
 };
