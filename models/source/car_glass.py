@@ -1,9 +1,9 @@
 """Panes, their frit bands, the cabin's shelter and the wipers."""
-import bpy
+import bmesh
 import numpy as np
 
 import car_shape as shape
-from car_mesh import Part, axes_for, fill, grid_faces, lathe, place, spline, tube, unit
+from car_mesh import Part, fill, grid_faces, spline, unit
 
 UV_PER_M = 0.6  # keeps every pane's chart metric and within the unit square
 SIDE_GLASS_INSET_M = 0.007
@@ -88,8 +88,7 @@ def make_panes(material_of):
     for which in ("front", "rear"):
         xz, tris, _ = fill([window_outline(which, grow=0.012)], 0.06, 0.04)
         p, n = glass_surface(xz), -surface_normals(glass_surface, xz)
-        rise = np.cumsum(np.r_[0, np.hypot(np.diff(p[:, 1]), np.diff(p[:, 2]))])[:0]  # chart: x along, true length up
-        up = (xz[:, 1] - 0.9) * 1.09
+        up = (xz[:, 1] - 0.9) * 1.09  # true length: the flank leans in
         for sign, hand in ((1, "left"), (-1, "right")):
             flip = np.array([1, sign, 1])
             faces = [tuple(t[::-1]) if sign > 0 else tuple(t) for t in tris]
@@ -111,18 +110,17 @@ def pane(name, points, faces, normals, uv, material, material_of):
 def make_shelter(material_of):
     """The cabin's air as a convex hull: it touches the panes' insides and stays inside roof, floor and doors."""
     pts = []
-    for v in (0.0, 0.5, 1.0):
-        for u in (-1.0, -0.5, 0.0, 0.5, 1.0):
-            pts.append(shape.screen(np.array([[u, v]]))[0])
+    for v, us in ((0.0, (-1, -0.5, 0, 0.5, 1)), (0.5, (-1, 0, 1)), (1.0, (-1, 0, 1))):
+        pts += list(shape.screen(np.array([[u, v] for u in us])))
     for v in (0.0, 1.0):
-        for u in (-1.0, 0.0, 1.0):
-            pts.append(shape.rear_screen(np.array([[u, v]]))[0])
-    for x, z in ((1.80, 0.95), (1.0, 0.97), (-0.3, 1.0), (0.95, 1.385), (0.0, 1.395)):
-        q = glass_surface(np.array([[x, z]]))[0]
+        pts += list(shape.rear_screen(np.array([[u, v] for u in (-1, 0, 1)])))
+    # Found by trying points of the side glass in turn: what leaves the least of it outside the hull.
+    for q in glass_surface(np.array([(0.30, 0.985), (0.54, 1.395), (1.74, 0.985), (-0.18, 1.01), (-0.18, 1.33)])):
+        q = q + [0, 0.003, 0]
         pts += [q, q * [1, -1, 1]]
-    for x, z, y in ((1.95, 0.30, 0.70), (-0.55, 0.35, 0.68), (0.4, 1.455, 0.15)):
+    for x, z, y in ((1.95, 0.30, 0.72), (-0.55, 0.35, 0.62)):
         pts += [(x, y, z), (x, -y, z)]
-    import bmesh
+    pts.append((0.4, 0.0, 1.435))
     bm = bmesh.new()
     for q in pts:
         bm.verts.new(q)
@@ -135,3 +133,21 @@ def make_shelter(material_of):
     part = Part("cabin").add(verts, faces, "under")
     part.build(material_of, rainglass={"type": "shelter", "name": "cabin"}, box_uv=False)
     return np.array(verts), faces
+
+
+def report_shelter(verts, faces):
+    """How far the panes stand outside the cabin's hull, and how far they dip into it."""
+    planes = []
+    for f in faces:
+        a, b, c = (verts[i] for i in f[:3])
+        n = unit(np.cross(b - a, c - a))
+        planes.append((n, n @ a))
+    flat = lambda k: np.stack([g.ravel() for g in np.meshgrid(np.linspace(-1, 1, k), np.linspace(0, 1, k))], -1)
+    panes = {"windscreen": shape.screen(flat(41)), "rear": shape.rear_screen(flat(31))}
+    for which in ("front", "rear"):
+        panes["side_" + which] = glass_surface(fill([window_outline(which)], 0.03)[0])
+    lines = [f"cabin hull: {len(verts)} vertices"]
+    for name, p in panes.items():
+        out = np.max([p @ n - d for n, d in planes], axis=0)
+        lines.append(f"cabin hull to {name}: {out.min()*1e3:.1f}..{out.max()*1e3:.1f} mm outside")
+    return lines

@@ -126,11 +126,11 @@ def flipped(faces):
 
 
 def resample(points, step):
-    """A polyline (open) at nearly equal steps; its corners sharper than 20 degrees stay."""
+    """A polyline (open) with no step longer than `step`; its own points stay, doubled ones go."""
     points = np.asarray(points, float)
     out = [points[0]]
     for a, b in zip(points[:-1], points[1:]):
-        n = max(1, int(np.ceil(np.linalg.norm(b - a) / step)))
+        n = int(np.ceil(np.linalg.norm(b - a) / step - 1e-6))
         out += [a + (b - a) * k / n for k in range(1, n + 1)]
     return np.array(out)
 
@@ -170,6 +170,18 @@ def rounded(points, radius, per=4):
 def closed_resample(loop, step):
     loop = np.asarray(loop, float)
     return resample(np.concatenate([loop, loop[:1]]), step)[:-1]
+
+
+def thin(loop, step):
+    """Drops points that stand closer than `step` where the loop hardly turns."""
+    loop = np.asarray(loop, float)
+    kept = [loop[0]]
+    for p, q in zip(loop[1:], np.roll(loop, -1, 0)[1:]):
+        a, b = p - kept[-1], q - p
+        turn = abs(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b))
+        if np.linalg.norm(a) > 1e-6 and (np.linalg.norm(a) >= step or turn > 0.16):
+            kept.append(p)
+    return np.array(kept)
 
 
 def signed_area(loop):
@@ -232,7 +244,8 @@ def fill(loops, step, edge_step=None):
     rings = [[first[i] for i in ring] for ring in rings]
     tris = np.array([f for f in out[2]])
     middle = xy[tris].mean(1)
-    ok = inside(middle, loops[0])
+    a, b = xy[tris[:, 1]] - xy[tris[:, 0]], xy[tris[:, 2]] - xy[tris[:, 0]]
+    ok = inside(middle, loops[0]) & (np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) > 1e-7)  # slivers along straight edges go
     for hole in loops[1:]:
         ok &= ~inside(middle, hole)
     return xy, tris[ok], rings
@@ -250,20 +263,20 @@ def panel(part, material, surface, loops, step=0.05, gap=0.003, radius=0.004, de
     """A sheet-metal panel: the area of `loops` on `surface`, its rims rounded and turned in by `depth`.
 
     The rim lies `gap` inside the outline, so that neighbours leave a joint of 2 gap. `flip` when the surface's
-    parameters are left-handed seen from outside.
+    parameters are left-handed seen from outside. `edge` "holes" turns in the rims of the openings only.
     """
     sign = -1.0 if flip else 1.0
-    loops = [closed_resample(l, edge_step or step) for l in loops]
+    loops = [closed_resample(thin(l, 0.6 * (edge_step or step)), edge_step or step) for l in loops]
     loops = [l if signed_area(l) > 0 else l[::-1] for l in loops]
-    inset = gap + (radius if edge else 0.0)
-    loops = [offset_loop(l, inset if k == 0 else -inset) for k, l in enumerate(loops)]
+    inset = [gap + (radius if edge is True or (edge and k) else 0.0) for k in range(len(loops))]
+    loops = [offset_loop(l, inset[k] if k == 0 else -inset[k]) for k, l in enumerate(loops)]
     xy, tris, rings = fill(loops, step, edge_step)
     normal = sign * normals_of(surface, xy)
     p = surface(xy) + normal * offset
     faces = [tuple(t[::-1]) if flip else tuple(t) for t in tris]
     verts, norms = [p], [normal]
     count = len(p)
-    for ring in (rings if edge else []):
+    for ring in {True: rings, False: [], "holes": rings[1:]}[edge]:
         q, n = p[ring], normal[ring]
         along = unit(np.roll(q, -1, 0) - np.roll(q, 1, 0))
         out = sign * np.cross(along, n)  # rings turn with the sheet on their left
@@ -283,13 +296,23 @@ def panel(part, material, surface, loops, step=0.05, gap=0.003, radius=0.004, de
 def lathe(profile, segments, origin, axis, start=(0, 0, 1)):
     """Turns a profile of (radius, along) about an axis; counter-clockwise profiles face outward. Vertices, faces."""
     axis = unit(axis)
+    start = start if np.linalg.norm(np.cross(start, axis)) > 0.05 else (1.0, 0, 0)
     u = unit(np.asarray(start, float) - np.dot(start, axis) * axis)
     v = np.cross(axis, u)
     profile = np.asarray(profile, float)
     angle = np.arange(segments) * 2 * np.pi / segments
     ring = np.cos(angle)[:, None] * u + np.sin(angle)[:, None] * v
-    verts = np.asarray(origin, float) + profile[:, None, :1] * ring[None] + profile[:, None, 1:] * axis
-    return verts.reshape(-1, 3), grid_faces(len(profile), segments, wrap_cols=True)
+    verts = (np.asarray(origin, float) + profile[:, None, :1] * ring[None] + profile[:, None, 1:] * axis).reshape(-1, 3)
+    on_axis = np.repeat(profile[:, 0] < 1e-9, segments)
+    first = np.arange(len(verts)) // segments * segments
+    faces = []
+    for f in grid_faces(len(profile), segments, wrap_cols=True):  # a ring on the axis is one vertex
+        g = [int(first[i]) if on_axis[i] else i for i in f]
+        faces.append(tuple(i for k, i in enumerate(g) if i != g[k - 1]))
+    used = np.unique(np.concatenate([np.array(f) for f in faces]))
+    new = np.zeros(len(verts), int)
+    new[used] = np.arange(len(used))
+    return verts[used], [tuple(int(new[i]) for i in f) for f in faces]
 
 
 def tube(path, radius, sides=8, closed=False, section=None, up=(0, 0, 1), caps=True):
@@ -301,6 +324,8 @@ def tube(path, radius, sides=8, closed=False, section=None, up=(0, 0, 1), caps=T
         a = np.arange(sides) * 2 * np.pi / sides
         section = np.stack([np.cos(a), np.sin(a)], -1)
     section = np.asarray(section, float)
+    if np.ndim(up) == 1 and np.abs(along @ unit(up)).max() > 0.999:
+        up = (1.0, 0, 0)
     up = np.broadcast_to(np.asarray(up, float), path.shape)
     side = unit(np.cross(along, up))
     top = np.cross(side, along)

@@ -11,13 +11,13 @@ HALF_LENGTH, HALF_WIDTH = 0.5 * (NOSE_X - TAIL_X), 0.92
 FRONT_SHAPE, REAR_SHAPE = 3.7, 5.0  # superellipse exponents of the plan outline
 SILL_Z = 0.17
 
-EYE = np.array([0.97, 0.37, 1.20])
+EYE = np.array([0.97, 0.37, 1.21])
 
 # Windscreen: 0.8 m along a slope of 30 degrees, middle of its lower edge here; the sides lie 0.13 m further back,
 # which is a bow of 65 mm along the normal.
 SCREEN_FOOT = np.array([2.08, 0.0, 0.99])
 SCREEN_SLOPE_RAD, SCREEN_HEIGHT_M = np.radians(30.0), 0.80
-SCREEN_HALF_FOOT, SCREEN_HALF_TOP, SCREEN_BOW_X, SCREEN_BULGE = 0.75, 0.61, 0.13, 0.012
+SCREEN_HALF_FOOT, SCREEN_HALF_TOP, SCREEN_BOW_X, SCREEN_BULGE = 0.75, 0.61, 0.13, 0.008
 
 # Rear window in the tailgate.
 REAR_FOOT, REAR_TOP = np.array([-0.715, 0.0, 1.02]), np.array([-0.455, 0.0, 1.385])
@@ -80,8 +80,8 @@ def s_of_tail_y(y):
 
 def belt_z(x):
     """Upper edge of the lower body: bonnet edge, belt line, tail."""
-    return interp(x, [(-0.80, 0.985), (-0.4, 0.995), (0.3, 0.985), (1.2, 0.962), (1.95, 0.935), (2.3, 0.905), (2.7, 0.855),
-                      (3.1, 0.788), (3.35, 0.728), (3.52, 0.69)])
+    return interp(x, [(-0.80, 0.985), (-0.4, 0.995), (0.3, 0.985), (1.2, 0.962), (1.95, 0.940), (2.3, 0.920), (2.7, 0.884),
+                      (3.1, 0.822), (3.35, 0.755), (3.52, 0.70)])
 
 
 def side(p):
@@ -101,7 +101,8 @@ def side(p):
     nose = smooth(x, 3.1, 3.45) * (1 - along**4)
     inset_x = inset + nose * (0.05 * smooth(z, 0.45, 0.72) + 0.03 * smooth(z, 0.36, 0.2))
     tail = smooth(x, -0.5, -0.75) * (1 - along**4)
-    inset_x = inset_x + tail * 0.055 * smooth(z, 0.58, 0.70)
+    behind = interp(z, [(0.17, 0.055), (0.30, 0.012), (0.45, 0.0), (0.575, 0.0), (0.63, 0.020), (0.72, 0.034), (0.86, 0.044), (0.985, 0.066), (1.05, 0.08)])
+    inset_x = (1 - tail) * inset_x + tail * behind
     fx, fy = 1 - inset_x / HALF_LENGTH, 1 - inset / HALF_WIDTH
     return np.stack([MIDDLE_X + (x - MIDDLE_X) * fx, y * fy, z], -1)
 
@@ -144,7 +145,7 @@ def bonnet(p):
     x, y = np.asarray(p, float).T
     edge_z = np.interp(-x, -_BELT[:, 0], _BELT[:, 2])
     half = np.maximum(bonnet_half(x), 1e-3)
-    crown = 0.068 * (1 - smooth(x, 2.75, 3.46)) + 0.016 * smooth(x, 3.46, 3.2)
+    crown = 0.074 * (1 - smooth(x, 2.75, 3.46)) + 0.016 * smooth(x, 3.46, 3.2)
     t = np.clip(np.abs(y) / half, 0, 1)
     ridge = 0.010 * np.exp(-((t - 0.60) / 0.09)**2) * smooth(x, 3.4, 2.9)
     return np.stack([x, y, edge_z + crown * (1 - t**2.4) + ridge], -1)

@@ -38,7 +38,7 @@ class Wiper:
         self.origin = shape.screen(uv)[0]
         self.normal = surface_normals(shape.screen, uv)[0]
         self.rest_deg = rest_deg
-        self.fit = np.zeros(4)  # axis tilt along x and y, lift (m), bend (1/m)
+        self.fit = np.zeros(5)  # axis tilt along x and y, lift (m), the blade's bend (1/m) and skew (1/m2)
         self._settle()
 
     def frame(self, fit):
@@ -56,8 +56,12 @@ class Wiper:
         axis, x, up = self.frame(fit)
         a = np.radians(angle_deg)[:, None, None]
         r = (self.arm_m + along)[None, :, None]
-        lift = (fit[2] + fit[3] * along**2)[None, :, None]
+        lift = self.lift(along, fit)[None, :, None]
         return self.origin + r * (np.cos(a) * x + np.sin(a) * up) + lift * axis
+
+    def lift(self, along, fit=None):
+        fit = self.fit if fit is None else fit
+        return fit[2] + fit[3] * along**2 + fit[4] * along**3
 
     def gaps(self, fit=None, angles=25, points=15):
         angle = np.linspace(0, self.sweep_deg, angles)
@@ -65,11 +69,12 @@ class Wiper:
         return glass_gap(self.blade(angle, along, fit).reshape(-1, 3))
 
     def _settle(self):
-        for _ in range(4):
+        for _ in range(30):  # large distances weigh more, which evens out the worst of them
             base = self.gaps()[0]
-            e = np.array([1e-3, 1e-3, 1e-3, 1e-2])
-            jac = np.stack([(self.gaps(self.fit + np.eye(4)[k] * e[k])[0] - base) / e[k] for k in range(4)], -1)
-            self.fit = self.fit - np.linalg.lstsq(jac, base - 0.001, rcond=None)[0]
+            weight = (np.abs(base - 0.002) / np.abs(base - 0.002).max())**2 + 0.05
+            e = np.array([1e-3, 1e-3, 1e-3, 1e-2, 1e-2])
+            jac = np.stack([(self.gaps(self.fit + np.eye(5)[k] * e[k])[0] - base) / e[k] for k in range(5)], -1)
+            self.fit = self.fit - 0.5 * np.linalg.lstsq(jac * weight[:, None], (base - 0.002) * weight, rcond=None)[0]
 
 
 def make_wipers(material_of):
@@ -90,7 +95,7 @@ def make_wipers(material_of):
 def make_blade(name, w, at, basis, node, material_of):
     """A flat blade: rubber lip on the glass, spoiler above it."""
     along = np.linspace(-0.5, 0.5, 17) * w.blade_m
-    lip = w.fit[2] + w.fit[3] * along**2
+    lip = w.lift(along)
     part = Part(name + "_blade")
     sections = [("rubber", [(-0.0012, 0.0), (0.0012, 0.0), (0.0035, 0.009), (-0.0035, 0.009)]),
                 ("black_plastic", [(-0.007, 0.008), (0.007, 0.008), (0.006, 0.013), (0.001, 0.020), (-0.002, 0.020), (-0.005, 0.013)])]
@@ -151,8 +156,9 @@ def report(wipers):
     lines = []
     for name, w in wipers.items():
         gap, uv = w.gaps(angles=91, points=41)
+        share = (np.abs(gap) < 0.006).mean()
         reach = (np.abs(uv[:, 0]).max(), uv[:, 1].min(), uv[:, 1].max())
-        lines.append(f"{name}: blade to glass {gap.min()*1e3:.1f}..{gap.max()*1e3:.1f} mm, |u| <= {reach[0]:.3f}, v {reach[1]:.3f}..{reach[2]:.3f}")
+        lines.append(f"{name}: blade to glass {gap.min()*1e3:.1f}..{gap.max()*1e3:.1f} mm ({100*share:.0f} % within 6 mm), |u| <= {reach[0]:.3f}, v {reach[1]:.3f}..{reach[2]:.3f}")
         axis, x, up = w.frame(w.fit)
         d = zone - w.origin
         r = np.linalg.norm(d - (d @ axis)[:, None] * axis, axis=1)

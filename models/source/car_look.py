@@ -1,4 +1,4 @@
-"""Path-traced look at a model. Run: blender -b --python models/source/look.py -- MODEL.glb OUT_PREFIX SAMPLES [WIDTH] [VIEW...]
+"""Path-traced look at a model. Run: blender -b --python models/source/car_look.py -- MODEL.glb OUT_PREFIX SAMPLES [WIDTH] [VIEW...]
 
 Views: eye (from the node with extras type eye), front, rear, side, or any "x,y,z>x,y,z:fov" in the car's vehicle frame.
 """
