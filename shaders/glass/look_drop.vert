@@ -4,6 +4,7 @@
 #include "shared/optics_drop.glsl"
 
 layout(std430, binding = 0) readonly buffer Drops { GlassDropRecord drops[]; };
+layout(std430, binding = 1) readonly buffer Mesh { float mesh[]; };  // x, y, z, nx, ny, nz, u, v of each vertex
 layout(binding = 2) uniform sampler2D pane_position;
 layout(binding = 3) uniform sampler2DArray pane_frame;
 layout(binding = 4) uniform sampler2D pane_metric;
@@ -23,6 +24,14 @@ struct Place {
   mat3 vehicle_from_drop;  // columns: towards the head, across, out of the glass
 };
 
+// +1 where cross(along u, along v) points out of the glass, -1 where the pane's uv are mirrored: as its first vertex tells.
+float handedness() {
+  vec3 outward = vec3(mesh[3], mesh[4], mesh[5]);
+  vec2 uv = vec2(mesh[6], mesh[7]);
+  vec3 across = cross(textureLod(pane_frame, vec3(uv, 0.0), 0.0).xyz, textureLod(pane_frame, vec3(uv, 1.0), 0.0).xyz);
+  return dot(across, outward) < 0.0 ? -1.0 : 1.0;
+}
+
 Place placeOf(GlassDropRecord drop) {
   vec2 grid_m = drop.position_m + drop.velocity_mps * frame.drop_age_s;
   vec2 uv = grid_m * frame.uv_per_m;
@@ -31,7 +40,7 @@ Place placeOf(GlassDropRecord drop) {
   vec3 along_u = textureLod(pane_frame, vec3(uv, 0.0), 0.0).xyz;
   vec3 along_v = textureLod(pane_frame, vec3(uv, 1.0), 0.0).xyz;
   vec2 metric = textureLod(pane_metric, uv, 0.0).xy;
-  vec3 normal = normalize(cross(along_u, along_v)) * frame.outward;
+  vec3 normal = normalize(cross(along_u, along_v)) * handedness();
   vec3 head = along_u * (drop.heading.x * metric.x) + along_v * (drop.heading.y * metric.y);
   head = dot(head, head) > 0.0 ? normalize(head - normal * dot(head, normal)) : normalize(along_u);
   place.vehicle_from_drop = mat3(head, cross(normal, head), normal);

@@ -52,7 +52,6 @@ FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, do
   pane.position = position_.name();
   pane.metric = metric_.name();
   pane.frame = frame_.name();
-  pane.right_handed = false;
 }
 
 GlassDropRecord FlatPane::cap(double u_m, double v_m, double base_radius_m, double contact_rad) const {

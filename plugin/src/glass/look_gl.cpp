@@ -9,6 +9,7 @@
 #include "gl/objects.h"
 #include "gl/program.h"
 #include "glass/look_capture_gl.h"
+#include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
 
 namespace rg::glass {
@@ -24,7 +25,7 @@ struct FrameBlock {
   glm::mat4 clip_from_eye, eye_from_vehicle, eye_from_world, world_from_vehicle;
   glm::vec4 eye_in_vehicle, sky_radiance, ground_radiance, viewport;
   glm::vec2 uv_per_m;
-  float drop_age_s, outward;
+  float drop_age_s, unused;
   float exposure, pixels_per_rad, environment_texels_per_rad, cabin_share;
   float brightness, blur, fine_radius_px;
   uint32_t has_environment;
@@ -39,10 +40,6 @@ float texelsPerRadian(const GladGLContext& gl, uint32_t cube) {
   GLint size_px = 0;
   gl.GetTextureLevelParameteriv(cube, 0, GL_TEXTURE_WIDTH, &size_px);
   return static_cast<float>(size_px) / glm::half_pi<float>();
-}
-
-double distanceTo(const LookPane& pane, const LookView& view) {
-  return glm::length(glm::dvec3(view.eyeFromWorld * pane.worldFromVehicle * glm::dvec4(pane.centre_m, 1.0)));
 }
 
 bool isWet(const LookPane& pane) { return pane.film != 0 || pane.drop_count > 0; }
@@ -61,8 +58,9 @@ struct GlassLook::Parts {
         smooth(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
         mipped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
         exact(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
+        no_environment(gl, GL_RGBA16F, 1),
         no_film(gl, GL_RGBA16F, 1, 1),
-        film_target(gl),
+        films(gl, false),
         picture(gl),
         capture(gl) {
     no_film.zero();
@@ -88,9 +86,10 @@ struct GlassLook::Parts {
   gl::Buffer frame_block;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, mipped, exact;
-  gl::Texture2D no_film;    // a dry texel
-  gl::Texture2D film_seen;  // of look_film.frag, for the pane being drawn
-  gl::Framebuffer film_target;
+  gl::TextureCube no_environment;  // black
+  gl::Texture2D no_film;           // a dry texel
+  Canvases films;                  // of look_film.frag
+  uint32_t film_seen = 0;          // for the pane being drawn
   LookPicture picture;
   LookCapture capture;
 };
@@ -110,7 +109,6 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.viewport = glm::vec4(view.viewport_px);
   block.uv_per_m = 1.0f / (pane.texel_m * glm::vec2(glm::max(pane.film_size, glm::ivec2(1))));
   block.drop_age_s = pane.drop_age_s;
-  block.outward = pane.right_handed ? 1.0f : -1.0f;
   block.exposure = target.exposure;
   block.pixels_per_rad =
       static_cast<float>(std::abs(view.clipFromEye[1][1])) * 0.5f * static_cast<float>(view.viewport_px.w);
@@ -132,7 +130,8 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
 void GlassLook::Parts::bindLook(const LookLight& light) {
   gl.BindTextureUnit(kPicture, picture.texture());
   gl.BindSampler(kPicture, mipped.name());
-  gl.BindTextureUnit(kEnvironment, environmentOf(light));
+  const uint32_t environment = environmentOf(light);
+  gl.BindTextureUnit(kEnvironment, environment != 0 ? environment : no_environment.name());
   gl.BindSampler(kEnvironment, mipped.name());
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
@@ -151,13 +150,9 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
 }
 
 void GlassLook::Parts::composeFilm(const LookPane& pane) {
-  if (!film_seen || film_seen.width() != pane.film_size.x || film_seen.height() != pane.film_size.y) {
-    film_seen = gl::Texture2D(gl, GL_RGBA16F, pane.film_size.x, pane.film_size.y);
-    film_target.attachColor(0, film_seen.name());
-    film_target.drawColors(1);
-    film_target.requireComplete("the film as it is seen");
-  }
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, film_target.name());
+  Canvas& canvas = films.ofSize(pane.film_size.x, pane.film_size.y);
+  film_seen = canvas.texture.name();
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer.name());
   gl.Viewport(0, 0, pane.film_size.x, pane.film_size.y);
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_BLEND);
@@ -174,7 +169,7 @@ void GlassLook::Parts::composeFilm(const LookPane& pane) {
 
 void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.Disable(GL_BLEND);
-  gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen.name() : no_film.name());
+  gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen : no_film.name());
   gl.BindSampler(kFirst, smooth.name());
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
   mesh_layout.bindIndices(pane.index_buffer);
@@ -190,6 +185,7 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.BindTextureUnit(kThird, pane.metric);
   for (const GLuint unit : {kFirst, kSecond, kThird}) gl.BindSampler(unit, smooth.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.drop_buffer);
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
   gl.BindVertexArray(no_layout.name());
   drop_program.use();
   gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, pane.drop_count);
@@ -201,9 +197,9 @@ void GlassLook::Parts::forget() {
   mesh_layout.forget();
   no_layout.forget();
   for (gl::Sampler* sampler : {&smooth, &mipped, &exact}) sampler->forget();
+  no_environment.forget();
   no_film.forget();
-  film_seen.forget();
-  film_target.forget();
+  films.forget();
   picture.forget();
   capture.forget();
 }
@@ -214,21 +210,23 @@ GlassLook::~GlassLook() = default;
 void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target,
                           const LookLight& light) {
   Parts& p = *parts_;
-  std::vector<const LookPane*> order;
-  for (const LookPane& pane : panes) {
-    if (isWet(pane) || settings.dry_reflection) order.push_back(&pane);
-  }
-  std::sort(order.begin(), order.end(), [&](const LookPane* a, const LookPane* b) {
-    return distanceTo(*a, view) > distanceTo(*b, view);
-  });
-  for (const LookPane* pane : order) {
-    p.picture.fetch(view.viewport_px, target);
-    p.fillFrame(*pane, view, target, light, settings);
-    if (pane->film != 0) p.composeFilm(*pane);
+  std::vector<SeenPane> drawn;  // since the picture was fetched
+  for (const SeenPane& seen : seenPanes(panes, view)) {
+    const LookPane& pane = *seen.pane;
+    if (!isWet(pane) && !settings.dry_reflection) continue;
+    const bool stale =
+        std::any_of(drawn.begin(), drawn.end(), [&](const SeenPane& far) { return liesBehind(far, seen); });
+    if (drawn.empty() || stale) {
+      p.picture.fetch(view.viewport_px, target);
+      drawn.clear();
+    }
+    drawn.push_back(seen);
+    p.fillFrame(pane, view, target, light, settings);
+    if (pane.film != 0) p.composeFilm(pane);
     p.setState(view, target);
     p.bindLook(light);
-    p.drawFilm(*pane);
-    if (pane->drop_count > 0) p.drawDrops(*pane);
+    p.drawFilm(pane);
+    if (pane.drop_count > 0) p.drawDrops(pane);
   }
 }
 

@@ -64,8 +64,7 @@ struct LookPane {
       0;  // RGBA32F: metres of glass for one texel along u, along v, cosine between both, area in m^2
   uint32_t frame = 0;  // RGBA16F array of 2 layers: unit tangents along u and along v in the vehicle's frame,
                        // likewise carried on
-  bool right_handed = false;  // cross(along u, along v) points out of the glass
-  uint32_t film = 0;  // R32I volume in each texel in units of film_unit_m3, < 0 off the pane; 0: no film
+  uint32_t film = 0;   // R32I volume in each texel in units of film_unit_m3, < 0 off the pane; 0: no film
   float film_unit_m3 = shared::kPicolitre_m3;
   // Drops: shared::GlassDropRecord in an SSBO. A record of seed 0 has a perfectly round outline (placed
   // drops), others their own.

@@ -1,25 +1,52 @@
 #include "glass/look_picture_gl.h"
 
+#include <algorithm>
+
 namespace rg::glass {
 
+Canvas& Canvases::ofSize(int width, int height) {
+  const auto found = std::find_if(canvases_.begin(), canvases_.end(), [&](const Canvas& canvas) {
+    return canvas.texture.width() == width && canvas.texture.height() == height;
+  });
+  if (found != canvases_.end()) {
+    canvases_.splice(canvases_.begin(), canvases_, found);
+    return canvases_.front();
+  }
+  if (canvases_.size() >= kMost) canvases_.pop_back();
+  Canvas& canvas = canvases_.emplace_front();
+  canvas.texture =
+      gl::Texture2D(*gl_, GL_RGBA16F, width, height, mipmaps_ ? gl::fullMipLevels(width, height) : 1);
+  canvas.framebuffer = gl::Framebuffer(*gl_, {&canvas.texture});
+  canvas.framebuffer.requireComplete("what the glass's look draws into");
+  return canvas;
+}
+
+void Canvases::forget() {
+  for (Canvas& canvas : canvases_) {
+    canvas.texture.forget();
+    canvas.framebuffer.forget();
+  }
+}
+
 void LookPicture::fetch(const glm::ivec4& viewport_px, const LookTarget& target) {
-  const int width = viewport_px.z, height = viewport_px.w;
-  if (!picture_ || picture_.width() != width || picture_.height() != height) {
-    picture_ = gl::Texture2D(*gl_, GL_RGBA16F, width, height, gl::fullMipLevels(width, height));
-    target_.attachColor(0, picture_.name());
-    target_.drawColors(1);
-    target_.requireComplete("the picture behind the glass");
+  const int x = viewport_px.x, y = viewport_px.y, width = viewport_px.z, height = viewport_px.w;
+  Canvas& canvas = canvases_.ofSize(width, height);
+  GLuint source = target.framebuffer;
+  if (target.color_texture != 0) {  // whatever the host's framebuffer has set to be read
+    source_.attachColor(0, target.color_texture);
+    gl_->NamedFramebufferReadBuffer(source_.name(), GL_COLOR_ATTACHMENT0);
+    source = source_.name();
   }
   gl_->Disable(GL_SCISSOR_TEST);
-  gl_->BlitNamedFramebuffer(target.framebuffer, target_.name(), viewport_px.x, viewport_px.y,
-                            viewport_px.x + width, viewport_px.y + height, 0, 0, width, height,
-                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  picture_.generateMipmaps();
+  gl_->BlitNamedFramebuffer(source, canvas.framebuffer.name(), x, y, x + width, y + height, 0, 0, width,
+                            height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  canvas.texture.generateMipmaps();
+  texture_ = canvas.texture.name();
 }
 
 void LookPicture::forget() {
-  picture_.forget();
-  target_.forget();
+  source_.forget();
+  canvases_.forget();
 }
 
 }  // namespace rg::glass

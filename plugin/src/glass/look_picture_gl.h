@@ -1,26 +1,50 @@
-// The target's picture, fetched so that glass can show it bent and blurred.
+// Textures the look draws into on its way: the target's picture, fetched so that glass can show it bent and
+// blurred, and films made ready.
 #pragma once
 
 #include <glm/glm.hpp>
+#include <list>
 
 #include "gl/objects.h"
 #include "glass/look_gl.h"
 
 namespace rg::glass {
 
+// A texture of half floats with its framebuffer.
+struct Canvas {
+  gl::Texture2D texture;
+  gl::Framebuffer framebuffer;
+};
+
+// Canvases by size, so that views and panes of different sizes that take turns do not make them anew each
+// time.
+class Canvases {
+ public:
+  Canvases(const GladGLContext& gl, bool mipmaps) : gl_(&gl), mipmaps_(mipmaps) {}
+  Canvas& ofSize(int width, int height);
+  void forget();
+
+ private:
+  static constexpr size_t kMost = 8;
+  const GladGLContext* gl_;
+  bool mipmaps_;
+  std::list<Canvas> canvases_;  // the one used last in front
+};
+
 class LookPicture {
  public:
-  explicit LookPicture(const GladGLContext& gl) : gl_(&gl), target_(gl) {}
+  explicit LookPicture(const GladGLContext& gl) : gl_(&gl), source_(gl), canvases_(gl, true) {}
 
   // Copies what the viewport of the target shows, as it is there, with mips.
   void fetch(const glm::ivec4& viewport_px, const LookTarget& target);
-  uint32_t texture() const { return picture_.name(); }
+  uint32_t texture() const { return texture_; }
   void forget();
 
  private:
   const GladGLContext* gl_;
-  gl::Texture2D picture_;
-  gl::Framebuffer target_;
+  gl::Framebuffer source_;  // reads the target's colour texture
+  Canvases canvases_;
+  uint32_t texture_ = 0;
 };
 
 }  // namespace rg::glass
