@@ -309,7 +309,7 @@ def cowl_and_frit(body):
         p = np.array([np.interp(i, np.arange(41), rows[2][:, c]) for c in range(3)])
         v, f = rounded_box(p + [0, 0, 0.004], (0.040, 0.006, 0.006), 0.002, segments=1)
         body.add(v, f, "black_gloss")
-    frit(body, shape.screen, (0.045, 0.045, 0.055, 0.050), False)
+    frit(body, shape.screen, (0.032, 0.032, 0.055, 0.050), False)
     sensor_patch(body)
     frit(body, shape.rear_screen, (0.07, 0.07, 0.10, 0.08), True)
 

@@ -17,8 +17,8 @@ def make(material_of):
 
 def floor(cabin):
     rows = []
-    for x, z in ((-0.62, 0.42), (0.20, 0.40), (0.36, 0.29), (1.60, 0.29), (1.86, 0.34), (1.99, 0.62), (2.02, 0.97)):
-        half = 0.62 if x < 0 else 0.80
+    for x, z in ((-0.62, 0.42), (0.20, 0.40), (0.36, 0.29), (1.60, 0.29), (1.86, 0.34), (1.97, 0.62), (1.97, 0.90)):
+        half = 0.62 if x < 0 else 0.80 if x < 1.8 else 0.74
         rows.append([(x, y * half, z) for y in (1, 0.5, 0.0, -0.5, -1)])
     cabin.add(np.array(rows), flipped(grid_faces(len(rows), 5))[::1], "carpet")
 
@@ -34,12 +34,12 @@ def pillars(cabin):
     one, other = frame_rails()
     one = one - [0, 0.026, 0]
     v = np.linspace(0, 1, 20)
-    foot = shape.screen(np.stack([np.ones(20), v], -1), -0.035) - np.array([0.5, 0, 0.87]) * 0.010
+    foot = shape.screen(np.stack([np.ones(20), v], -1), -0.024) - np.array([0.5, 0, 0.87]) * 0.010
     other = np.concatenate([evenly(foot, 25), other[25:-16] - [0, 0.02, 0.028], other[-16:] + [0.03, -0.02, -0.02]])
     inward = np.stack([np.zeros(len(one)), -np.ones(len(one)), np.full(len(one), -0.9)], -1)
     inward[:25, 0], inward[-16:, 0] = -0.55, 0.7
     t = np.linspace(0, 1, 7)[:, None, None]
-    control = 0.5 * (one + other) + np.concatenate([np.full(25, 0.030), np.full(len(one) - 25, 0.02)])[:, None] * unit(inward)
+    control = 0.5 * (one + other) + np.concatenate([np.full(25, 0.020), np.full(len(one) - 25, 0.02)])[:, None] * unit(inward)
     strip = (1 - t)**2 * one + 2 * t * (1 - t) * control + t**2 * other
     cabin.add(strip, grid_faces(7, len(one)), "headliner", mirror=True)
     v, f = rounded_box((0.955, 0.700, 1.175), (0.085, 0.03, 0.40), 0.012, rotation((1, 0, 0), 23))
@@ -96,9 +96,9 @@ def doors(cabin):
 
 
 def tail_lining(cabin):
-    y = np.linspace(-0.60, 0.60, 15)
+    y = np.linspace(-0.54, 0.54, 15)
     low = np.stack([np.full(15, -0.64), y, np.full(15, 0.42)], -1)
-    mid = np.stack([np.full(15, -0.66), y, np.full(15, 0.98)], -1)
+    mid = np.stack([np.full(15, -0.625), y, np.full(15, 0.965)], -1)
     foot = shape.rear_screen(np.stack([y / 0.62, np.full(15, 0.04)], -1)) + [0.03, 0, 0]
     cabin.add(np.array([low, mid, foot]), grid_faces(3, 15), "trim")
 

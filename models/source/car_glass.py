@@ -39,7 +39,7 @@ def planes_left_of(curve, inset):
 def window_outline(which, grow=0.0, round_m=0.022):
     """Daylight opening of the left flank in (x, z), counter-clockwise as seen with x to the right; corners rounded."""
     arch = spline(shape.PILLAR_A + shape.ROOF_RAIL + shape.PILLAR_C, 4)
-    inset = 0.050 - grow
+    inset = 0.042 - grow
     xs = np.linspace(-0.62, 1.95, 9)
     sill = [(x, shape.belt_z(x) + 0.022 - grow) for x in xs]
     planes = planes_left_of(arch, inset + round_m)
