@@ -1,0 +1,84 @@
+#include "rain/cells.h"
+
+#include "shared/hash.glsl"
+
+namespace rg::rain {
+namespace {
+constexpr size_t kFirstTable = 1u << 15;  // of 16 384 cells: two views' worth
+}
+
+Cells::Cells() {
+  table_.assign(kFirstTable, kNone);
+  pool_.reserve(kFirstTable / 2);
+  free_.reserve(kFirstTable / 2);
+}
+
+uint32_t Cells::hashOf(const CellKey& key) {
+  const auto mixed = shared::pcg3d({static_cast<uint32_t>(key.x), static_cast<uint32_t>(key.y), static_cast<uint32_t>(key.z) * 37u + key.kind});
+  return mixed.x ^ mixed.z;
+}
+
+uint32_t Cells::find(const CellKey& key) const {
+  const uint32_t mask = static_cast<uint32_t>(table_.size()) - 1u;
+  uint32_t place = hashOf(key) & mask;
+  while (table_[place] != kNone && !(pool_[table_[place]].key == key)) place = (place + 1u) & mask;
+  return place;
+}
+
+void Cells::grow() {
+  table_.assign(table_.size() * 2, kNone);
+  for (uint32_t i = 0; i < poolSize(); ++i) {
+    if (pool_[i].views > 0) table_[find(pool_[i].key)] = i;
+  }
+  pool_.reserve(table_.size() / 2);
+  free_.reserve(table_.size() / 2);
+}
+
+uint32_t Cells::acquire(const CellKey& key, bool& fresh) {
+  if ((size_t{live_} + 1) * 2 > table_.size()) grow();
+  const uint32_t place = find(key);
+  fresh = table_[place] == kNone;
+  if (fresh) {
+    if (free_.empty()) {
+      pool_.emplace_back();
+      free_.push_back(poolSize() - 1);
+    }
+    table_[place] = free_.back();
+    free_.pop_back();
+    pool_[table_[place]] = Cell{key, kNone, 0, false};
+    ++live_;
+  }
+  ++pool_[table_[place]].views;
+  return table_[place];
+}
+
+uint32_t Cells::release(const CellKey& key) {
+  const uint32_t index = table_[find(key)];
+  if (index == kNone) return kNone;
+  return --pool_[index].views == 0 ? index : kNone;
+}
+
+void Cells::free(uint32_t index) {
+  const uint32_t mask = static_cast<uint32_t>(table_.size()) - 1u;
+  uint32_t hole = find(pool_[index].key);
+  // Later entries of the same run move up, so that no search ends early (Knuth, The Art of Computer Programming 3, 6.4 algorithm R).
+  for (uint32_t next = (hole + 1u) & mask; table_[next] != kNone; next = (next + 1u) & mask) {
+    const uint32_t home = hashOf(pool_[table_[next]].key) & mask;
+    if (((next - home) & mask) < ((next - hole) & mask)) continue;
+    table_[hole] = table_[next];
+    hole = next;
+  }
+  table_[hole] = kNone;
+  pool_[index].views = 0;
+  free_.push_back(index);
+  --live_;
+}
+
+void Cells::clear() {
+  table_.assign(table_.size(), kNone);
+  pool_.clear();
+  free_.clear();
+  live_ = 0;
+}
+
+}  // namespace rg::rain

@@ -1,0 +1,101 @@
+// The fixed buffer of live drops: slots, the lists they hang in, and when they end.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rain/cells.h"
+#include "shared/rain_streak.glsl"
+
+namespace rg::rain {
+
+// Free slots of a fixed buffer. The lowest goes first, so that the live ones stay together and drawing need not look far.
+class SlotPool {
+ public:
+  explicit SlotPool(uint32_t capacity);
+  uint32_t take();  // kNone when all are taken
+  void give(uint32_t slot);
+  void clear();
+  uint32_t used() const { return used_; }
+  uint32_t end() const { return end_; }  // all taken slots lie below
+  bool taken(uint32_t slot) const;
+
+ private:
+  static constexpr int kLevels = 4;  // a bit for each slot; above, a bit for each word that has a free one: 64^4 slots
+  std::vector<uint64_t> free_[kLevels];
+  uint32_t capacity_, used_ = 0, end_ = 0;
+};
+
+// Drops by slot, each hanging in its cell's list, and in the calendar when it has an end.
+class Drops {
+ public:
+  explicit Drops(uint32_t capacity);
+
+  // `now` and ends: in 1/1024 tick, modulo 2^32, as RainDrop.end. kNone when full.
+  uint32_t add(const shared::RainDrop& drop, uint32_t cell, uint32_t& first_of_cell, bool ends, uint32_t now);
+  void remove(uint32_t slot, uint32_t& first_of_cell);
+  void setEnd(uint32_t slot, uint32_t end, bool ends, uint32_t now);
+  void clear();  // without telling the GPU slot by slot: publish all afterwards
+
+  // Calls expired(slot) for each drop whose end has come; it must remove it. Call for every tick.
+  template <class F>
+  void expire(uint32_t now, F&& expired) {
+    while (static_cast<int32_t>(now - expired_to_) >= static_cast<int32_t>(kTick)) {
+      expired_to_ += kTick;
+      expireBucket(expired_to_ / kTick, now, expired);
+    }
+  }
+  void startCalendar(uint32_t now) { expired_to_ = now; }
+
+  const shared::RainDrop& operator[](uint32_t slot) const { return records_[slot]; }
+  bool ends(uint32_t slot) const { return bucket_[slot] != kNone; }
+  uint32_t cellOf(uint32_t slot) const { return cell_[slot]; }
+  uint32_t nextInCell(uint32_t slot) const { return in_cell_[slot].next; }
+  bool alive(uint32_t slot) const { return slots_.taken(slot); }
+  uint32_t live() const { return slots_.used(); }
+  uint32_t end() const { return slots_.end(); }
+  uint32_t capacity() const { return static_cast<uint32_t>(records_.size()); }
+
+  // Slots written or emptied since the last call of clearChanged, in that order, each once.
+  const std::vector<uint32_t>& changed() const { return changed_; }
+  void clearChanged();
+
+ private:
+  struct Link {
+    uint32_t next = kNone, before = kNone;
+  };
+  static constexpr uint32_t kTick = 1024;
+  static constexpr uint32_t kBuckets = 2048;  // ticks ahead: 17 s
+
+  static void link(std::vector<Link>& links, uint32_t& head, uint32_t slot);
+  static void unlink(std::vector<Link>& links, uint32_t& head, uint32_t slot);
+  void schedule(uint32_t slot, uint32_t now);
+  void unschedule(uint32_t slot);
+  void touch(uint32_t slot);
+
+  template <class F>
+  void expireBucket(uint32_t tick, uint32_t now, F& expired) {
+    uint32_t slot = heads_[tick % kBuckets];
+    while (slot != kNone) {
+      const uint32_t next = on_day_[slot].next;
+      if (static_cast<int32_t>(records_[slot].end - now) <= 0) {
+        expired(slot);
+      } else {  // it was beyond the calendar when it was written in
+        unschedule(slot);
+        schedule(slot, now);
+      }
+      slot = next;
+    }
+  }
+
+  SlotPool slots_;
+  std::vector<shared::RainDrop> records_;
+  std::vector<Link> in_cell_, on_day_;
+  std::vector<uint32_t> cell_, bucket_;
+  std::vector<uint32_t> heads_;
+  std::vector<uint32_t> changed_;
+  std::vector<bool> is_changed_;
+  uint32_t expired_to_ = 0;
+};
+
+}  // namespace rg::rain

@@ -1,0 +1,87 @@
+// Motions as they were and as they are expected to go on: pieces of constant velocity, the last one reaching into the future. A piece ends
+// when what really happens departs from it by a centimetre.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "tick.h"
+
+namespace rg::rain {
+
+inline constexpr double kDeparture_m = 0.01;
+
+// The last N pieces, newest at index 0.
+template <class T, uint32_t N>
+class Recent {
+ public:
+  void add(const T& value) {
+    newest_ = (newest_ + N - 1) % N;
+    values_[newest_] = value;
+    if (count_ < N) ++count_;
+  }
+  void clear() { count_ = 0; }
+  uint32_t size() const { return count_; }
+  T& operator[](uint32_t age) { return values_[(newest_ + age) % N]; }
+  const T& operator[](uint32_t age) const { return values_[(newest_ + age) % N]; }
+
+ private:
+  std::array<T, N> values_{};
+  uint32_t newest_ = 0, count_ = 0;
+};
+
+// How far the air has carried what floats in it, since the field's start.
+class WindPath {
+ public:
+  struct Piece {
+    double from_s = 0.0;
+    glm::dvec3 carried_m{0.0};  // at from_s
+    glm::dvec3 wind_mps{0.0};
+  };
+  void start(double time_s, const glm::dvec3& carried_m, const glm::dvec3& wind_mps);
+  // Takes the wind to `time_s`, linear in between. True when a new piece had to begin: ends told from the old one are no longer right.
+  bool advance(double time_s, const glm::dvec3& wind_mps);
+
+  const glm::dvec3& carried_m() const { return carried_m_; }
+  const glm::dvec3& wind_mps() const { return wind_mps_; }
+  uint32_t pieces() const { return pieces_.size(); }
+  const Piece& piece(uint32_t age) const { return pieces_[age]; }
+
+ private:
+  Recent<Piece, 256> pieces_;
+  glm::dvec3 carried_m_{0.0}, wind_mps_{0.0};
+  double time_s_ = 0.0;
+};
+
+// `pose` taken on by `seconds` with its velocities held.
+Pose movedOn(const Pose& pose, double seconds);
+glm::dvec3 intoBody(const Pose& pose, const glm::dvec3& world_m);
+glm::dvec3 outOfBody(const Pose& pose, const glm::dvec3& body_m);
+
+// Where a body was in the last seconds and will be.
+class BodyPath {
+ public:
+  struct Piece {
+    double from_s = 0.0;
+    Pose pose;  // at from_s
+  };
+  static constexpr double kRenewed_s = 1.5;  // a prediction is taken afresh at least that often
+  static constexpr double kAhead_s = 3.0;    // and looked ahead so far
+  static constexpr double kBehind_s = 3.0;   // drops that met the body earlier have reached the ground: 2 s from a lorry's roof for the slowest
+
+  void start(double time_s, const Pose& pose);
+  // As WindPath::advance; `radius_m`: how far from its origin the body reaches. `jumped`: the body was put where it is.
+  bool advance(double time_s, const Pose& pose, double radius_m, bool jumped);
+
+  const Pose& pose() const { return pose_; }  // as last told
+  uint32_t pieces() const { return pieces_.size(); }
+  const Piece& piece(uint32_t age) const { return pieces_[age]; }
+  void shift(const glm::dvec3& shift_m);
+
+ private:
+  Recent<Piece, 128> pieces_;
+  Pose pose_;
+};
+
+}  // namespace rg::rain

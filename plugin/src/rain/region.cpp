@@ -1,0 +1,131 @@
+#include "rain/region.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rg::rain {
+namespace {
+
+using glm::dvec3;
+
+constexpr double kMostCells = 22.0;  // RowSet holds 48 rows: 22 to either side, and the roundings
+constexpr double kFarthestCell = 1.0e9;
+
+// The direction, world axes, that is seen at a point of the picture (-1..1).
+dvec3 seenAt(const glm::dmat4& eyeFromClip, const glm::dmat3& worldFromEye, double x, double y) {
+  // Two depths on the ray: their difference is the direction, whatever the depth convention.
+  const glm::dvec4 a = eyeFromClip * glm::dvec4(x, y, 0.25, 1.0), b = eyeFromClip * glm::dvec4(x, y, 0.75, 1.0);
+  dvec3 ray = dvec3(a) / a.w - dvec3(b) / b.w;
+  if (ray.z > 0.0) ray = -ray;
+  return worldFromEye * glm::normalize(ray);
+}
+
+struct Side {
+  float offset, by_y, by_z;  // x = offset + by_y * y + by_z * z, relative to the eye, in cells
+};
+
+struct Sides {
+  std::array<Side, 4> low, high;
+  int lows = 0, highs = 0;
+};
+
+Sides sidesOf(const Cone& cone, const Margin& margin, double cell_m) {
+  Sides sides;
+  for (const dvec3& n : cone.inward) {
+    const double wider = (std::abs(glm::dot(margin.sweep_m, n)) + margin.sides_m) / cell_m + 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    // A plane along x bounds no row in x. Tilting it by 1e-4 moves it by less than 0.003 cells anywhere in reach.
+    const double nx = std::abs(n.x) < 1e-4 ? 1e-4 : n.x;
+    const Side side{static_cast<float>(-wider / nx), static_cast<float>(-n.y / nx), static_cast<float>(-n.z / nx)};
+    if (nx > 0.0) sides.low[static_cast<size_t>(sides.lows++)] = side;
+    else sides.high[static_cast<size_t>(sides.highs++)] = side;
+  }
+  return sides;
+}
+
+// Bounds of the region along an axis, from the eye, in cells: of the pyramid with the sphere's radius as its depth, within the sphere.
+void extent(const Cone& cone, const Margin& margin, double cell_m, double radius, int axis, double& low, double& high) {
+  const dvec3 middle = glm::normalize(cone.corners[0] + cone.corners[1] + cone.corners[2] + cone.corners[3]);
+  double nearest = 0.0, farthest = 0.0;
+  for (const dvec3& corner : cone.corners) {
+    const double along = glm::dot(corner, middle);
+    const double tip = along > 0.2 ? corner[axis] / along : (corner[axis] > 0.0 ? 5.0 : -5.0);
+    nearest = std::min(nearest, tip);
+    farthest = std::max(farthest, tip);
+  }
+  // The sides' margin moves the pyramid's edges apart by more than itself where they meet sharply: twice covers 60 deg between them.
+  const double wider = 2.0 * (glm::length(margin.sweep_m) + margin.sides_m) / cell_m + 1.5;
+  low = std::max(-radius, radius * nearest - wider);
+  high = std::min(radius, radius * farthest + wider);
+}
+
+}  // namespace
+
+Cone coneOf(const ViewState& view) {
+  Cone cone;
+  const glm::dmat4 eyeFromClip = glm::inverse(view.clipFromEye);
+  const glm::dmat3 worldFromEye = glm::transpose(glm::dmat3(view.eyeFromWorld));
+  cone.eye_m = -(worldFromEye * dvec3(view.eyeFromWorld[3]));
+  cone.corners = {seenAt(eyeFromClip, worldFromEye, -1, -1), seenAt(eyeFromClip, worldFromEye, 1, -1),
+                  seenAt(eyeFromClip, worldFromEye, 1, 1), seenAt(eyeFromClip, worldFromEye, -1, 1)};
+  const dvec3 middle = glm::normalize(cone.corners[0] + cone.corners[1] + cone.corners[2] + cone.corners[3]);
+  for (size_t i = 0; i < 4; ++i) {
+    dvec3 normal = glm::normalize(glm::cross(cone.corners[i], cone.corners[(i + 1) % 4]));
+    if (glm::dot(normal, middle) < 0.0) normal = -normal;
+    cone.inward[i] = normal;
+  }
+  cone.valid = true;
+  const auto usable = [](const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  for (size_t i = 0; i < 4; ++i) cone.valid = cone.valid && usable(cone.inward[i]) && usable(cone.corners[i]);
+  cone.valid = cone.valid && usable(cone.eye_m);
+  return cone;
+}
+
+void findRows(const Cone& cone, const Margin& margin, const dvec3& eye_cells, double cell_m, RowSet& out) {
+  out.clear();
+  if (!cone.valid || !(glm::length(eye_cells) < kFarthestCell)) return;
+  const dvec3 base = glm::floor(eye_cells);
+  const dvec3 eye = eye_cells - base;  // 0..1: what follows stays near zero, where floats are fine
+  constexpr double kHalfDiagonal = 0.8661;
+  const double radius = std::min(margin.reach_m / cell_m + kHalfDiagonal, kMostCells);
+
+  double y_low, y_high, z_low, z_high;
+  extent(cone, margin, cell_m, radius, 1, y_low, y_high);
+  extent(cone, margin, cell_m, radius, 2, z_low, z_high);
+  const int32_t y_first = static_cast<int32_t>(std::floor(eye.y + y_low)), y_last = static_cast<int32_t>(std::ceil(eye.y + y_high));
+  const int32_t z_first = static_cast<int32_t>(std::floor(eye.z + z_low)), z_last = static_cast<int32_t>(std::ceil(eye.z + z_high));
+  const int32_t base_x = static_cast<int32_t>(base.x);
+  out.y0 = static_cast<int32_t>(base.y) + y_first;
+  out.z0 = static_cast<int32_t>(base.z) + z_first;
+  out.ny = std::clamp(y_last - y_first, 0, RowSet::kRows);
+  out.nz = std::clamp(z_last - z_first, 0, RowSet::kRows);
+
+  const Sides sides = sidesOf(cone, margin, cell_m);
+  const float radius_sq = static_cast<float>(radius * radius), eye_x = static_cast<float>(eye.x);
+  for (int32_t iy = 0; iy < out.ny; ++iy) {
+    const float y = static_cast<float>(y_first + iy + 0.5 - eye.y);
+    RowSpan* row = &out.rows[static_cast<size_t>(iy) * RowSet::kRows];
+    for (int32_t iz = 0; iz < out.nz; ++iz) {
+      const float z = static_cast<float>(z_first + iz + 0.5 - eye.z);
+      const float rest = radius_sq - y * y - z * z;
+      const float half = std::sqrt(std::max(rest, 0.0f));
+      float low = -half, high = half;
+      for (int i = 0; i < sides.lows; ++i) {
+        const Side& s = sides.low[static_cast<size_t>(i)];
+        low = std::max(low, s.offset + s.by_y * y + s.by_z * z);
+      }
+      for (int i = 0; i < sides.highs; ++i) {
+        const Side& s = sides.high[static_cast<size_t>(i)];
+        high = std::min(high, s.offset + s.by_y * y + s.by_z * z);
+      }
+      if (rest < 0.0f || low > high) {
+        row[iz] = {};
+        continue;
+      }
+      // Cells whose middle lies between low and high; both within +-22.
+      const int32_t first = static_cast<int32_t>(std::ceil(low + eye_x - 0.5f)), last = static_cast<int32_t>(std::floor(high + eye_x - 0.5f)) + 1;
+      row[iz] = first < last ? RowSpan{base_x + first, base_x + last} : RowSpan{};
+    }
+  }
+}
+
+}  // namespace rg::rain

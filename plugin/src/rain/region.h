@@ -1,0 +1,51 @@
+// Which cells of a class's standing lattice a view looks into: found row by row, as the volume is convex.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "tick.h"
+
+namespace rg::rain {
+
+// The near part of a view's frustum, from its eye, world axes. Side planes only: the field does not end at the host's near or far plane.
+struct Cone {
+  glm::dvec3 eye_m{0.0};
+  std::array<glm::dvec3, 4> inward;   // unit normals of the side planes, all through the eye
+  std::array<glm::dvec3, 4> corners;  // unit directions of the edges
+  bool valid = false;                 // false: the matrices are no perspective view
+};
+Cone coneOf(const ViewState& view);
+
+// How far beyond the cone cells are wanted, so that no drop or streak is missed until the next tick.
+struct Margin {
+  glm::dvec3 sweep_m{0.0};  // a drop's way past the eye, either sense: in the coming tick and half the exposure
+  double sides_m = 0.0;     // at the sides, for turning
+  double reach_m = 0.0;     // how far the class is seen
+};
+
+// Cells [first, last) of a row along x.
+struct RowSpan {
+  int32_t first = 0;
+  int32_t last = 0;
+};
+
+// The rows of a region: y in [y0, y0 + ny), z in [z0, z0 + nz).
+struct RowSet {
+  static constexpr int32_t kRows = 48;
+  int32_t y0 = 0, z0 = 0, ny = 0, nz = 0;
+  std::array<RowSpan, size_t{kRows} * kRows> rows;
+
+  RowSpan at(int32_t y, int32_t z) const {
+    if (y < y0 || z < z0 || y >= y0 + ny || z >= z0 + nz) return {};
+    return rows[static_cast<size_t>(y - y0) * kRows + static_cast<size_t>(z - z0)];
+  }
+  void clear() { ny = nz = 0; }
+};
+
+// The cells whose cube touches the cone widened by the margin (a few more at its edges). `eye_cells` is the eye's place in the lattice, in
+// cells. A region too large for RowSet is cut at 22 cells from the eye.
+void findRows(const Cone& cone, const Margin& margin, const glm::dvec3& eye_cells, double cell_m, RowSet& out);
+
+}  // namespace rg::rain

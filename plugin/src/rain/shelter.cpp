@@ -1,0 +1,298 @@
+#include "rain/shelter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rg::rain {
+namespace {
+
+using glm::dvec3;
+
+constexpr uint32_t kLeaf = 2;
+
+// Times (enter, leave) within [from, to] at which p + v t is inside; enter > leave: never. (Cyrus & Beck 1978.)
+struct Span {
+  double enter, leave;
+};
+Span timesInside(std::span<const Plane> planes, const dvec3& p, const dvec3& v, double from, double to) {
+  Span span{from, to};
+  for (const Plane& plane : planes) {
+    const double outside = glm::dot(plane.normal, p) - plane.d;
+    const double rate = glm::dot(plane.normal, v);
+    if (rate > 0.0) span.leave = std::min(span.leave, -outside / rate);
+    else if (rate < 0.0) span.enter = std::max(span.enter, -outside / rate);
+    else if (outside > 0.0) return {1.0, 0.0};
+    if (span.enter > span.leave) return span;
+  }
+  return span;
+}
+
+bool meetsBox(const Box& box, const dvec3& half, const dvec3& p, const dvec3& v, double from, double to) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.low[axis] - half[axis] - p[axis], high = box.high[axis] + half[axis] - p[axis];
+    if (v[axis] == 0.0) {
+      if (low > 0.0 || high < 0.0) return false;
+      continue;
+    }
+    const double a = low / v[axis], b = high / v[axis];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+    if (from > to) return false;
+  }
+  return true;
+}
+
+bool meetsSphere(const dvec3& to_centre, const dvec3& v, double from, double to, double radius) {
+  const double speed_sq = glm::dot(v, v);
+  const double nearest = speed_sq > 0.0 ? std::clamp(glm::dot(to_centre, v) / speed_sq, from, to) : from;
+  const dvec3 miss = to_centre - v * nearest;
+  return glm::dot(miss, miss) <= radius * radius;
+}
+
+}  // namespace
+
+std::string Shelter::set(uint32_t id, const VolumeInfo& info) {
+  Convex shape;
+  if (auto wrong = makeConvex(info, shape); !wrong.empty()) return wrong;
+  volumes_[id] = std::make_shared<Volume>(Volume{id, info.vehicle, info.active, std::move(shape)});
+  changed_ = true;
+  return {};
+}
+
+bool Shelter::remove(uint32_t id) {
+  const bool was = volumes_.erase(id) > 0;
+  changed_ = changed_ || was;
+  return was;
+}
+
+void Shelter::removeVehicle(uint32_t vehicle) {
+  changed_ = std::erase_if(volumes_, [&](const auto& v) { return v.second->vehicle == vehicle && vehicle != 0; }) > 0 || changed_;
+  bodies_.erase(vehicle);
+}
+
+void Shelter::shift(const dvec3& shift_m) {
+  for (auto& [id, volume] : volumes_) {
+    if (volume->vehicle != 0) continue;
+    for (Plane& plane : volume->shape.planes) plane.d -= glm::dot(plane.normal, shift_m);
+    volume->shape.box.low -= shift_m;
+    volume->shape.box.high -= shift_m;
+    volume->shape.centre -= shift_m;
+  }
+  for (auto& [id, body] : bodies_) body.path.shift(shift_m);
+  for (Node& node : nodes_) {
+    node.box.low -= shift_m;
+    node.box.high -= shift_m;
+  }
+}
+
+void Shelter::rebuild() {
+  list_.clear();
+  nodes_.clear();
+  for (auto& [id, body] : bodies_) body.volumes.clear();
+  for (const auto& [id, volume] : volumes_) {
+    if (volume->active && volume->vehicle == 0) list_.push_back(volume);
+  }
+  statics_ = static_cast<uint32_t>(list_.size());
+  if (statics_ > 0) {
+    nodes_.reserve(2 * statics_);
+    nodes_.emplace_back();
+    split(0, 0, statics_);
+  }
+  for (const auto& [id, volume] : volumes_) {
+    if (!volume->active || volume->vehicle == 0) continue;
+    bodies_[volume->vehicle].volumes.push_back(static_cast<uint32_t>(list_.size()));
+    list_.push_back(volume);
+  }
+  for (auto& [id, body] : bodies_) {
+    body.radius_m = 0.0;
+    for (const uint32_t i : body.volumes) {
+      body.radius_m = std::max(body.radius_m, glm::length(list_[i]->shape.centre) + list_[i]->shape.radius_m);
+    }
+  }
+  met_.reserve(list_.size());
+  met_bodies_.reserve(bodies_.size());
+  stack_.reserve(nodes_.size() + 1);
+}
+
+// Halves by number along the longest side of the middles' box.
+void Shelter::split(uint32_t node, uint32_t first, uint32_t count) {
+  Box box = list_[first]->shape.box, middles{list_[first]->shape.centre, list_[first]->shape.centre};
+  for (uint32_t i = first; i < first + count; ++i) {
+    const Convex& shape = list_[i]->shape;
+    box = {glm::min(box.low, shape.box.low), glm::max(box.high, shape.box.high)};
+    middles = {glm::min(middles.low, shape.centre), glm::max(middles.high, shape.centre)};
+  }
+  nodes_[node] = {box, first, count};
+  if (count <= kLeaf) return;
+  const dvec3 size = middles.high - middles.low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const auto begin = list_.begin() + first;
+  std::nth_element(begin, begin + count / 2, begin + count, [axis](const auto& a, const auto& b) {
+    return a->shape.centre[axis] != b->shape.centre[axis] ? a->shape.centre[axis] < b->shape.centre[axis] : a->id < b->id;
+  });
+  const uint32_t left = static_cast<uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  nodes_[node].first = left;
+  nodes_[node].count = 0;
+  split(left, first, count / 2);
+  split(left + 1, first + count / 2, count - count / 2);
+}
+
+Shelter::Changes Shelter::advance(double time_s, std::span<const VehicleState> vehicles) {
+  Changes changes;
+  changes.volumes = changed_;
+  if (changed_) rebuild();
+  changed_ = false;
+  for (auto& [id, body] : bodies_) {
+    const auto told = std::find_if(vehicles.begin(), vehicles.end(), [&](const VehicleState& v) { return v.id == id; });
+    Pose pose = body.path.pose();
+    if (told != vehicles.end()) pose = told->pose;
+    else pose.velocity_mps = pose.angular_velocity_radps = dvec3(0.0);  // not listed: it stands still
+    if (!body.known) {
+      if (told == vehicles.end()) continue;
+      body.path.start(time_s, pose);
+      body.known = true;
+      changes.bodies = true;
+    } else if (body.path.advance(time_s, pose, body.radius_m, told != vehicles.end() && told->discontinuity)) {
+      changes.bodies = changes.bodies || !body.volumes.empty();
+    }
+  }
+  return changes;
+}
+
+void Shelter::restart() {
+  for (auto& [id, body] : bodies_) body.known = false;
+}
+
+void Shelter::gatherStatic(const dvec3& middle, const dvec3& half, const PathPiece& piece) {
+  const dvec3 from = middle + piece.from_m - piece.velocity_mps * piece.from_s;
+  stack_.clear();
+  stack_.push_back(0);
+  while (!stack_.empty()) {
+    const Node& node = nodes_[stack_.back()];
+    stack_.pop_back();
+    if (!meetsBox(node.box, half, from, piece.velocity_mps, piece.from_s, piece.to_s)) continue;
+    if (node.count == 0) {
+      stack_.push_back(node.first);
+      stack_.push_back(node.first + 1);
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (!meetsBox(list_[i]->shape.box, half, from, piece.velocity_mps, piece.from_s, piece.to_s)) continue;
+      if (std::find(met_.begin(), met_.end(), i) == met_.end()) met_.push_back(i);
+    }
+  }
+}
+
+void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& path, double now_s, bool past) {
+  for (const auto& [id, body] : bodies_) {
+    if (!body.known || body.volumes.empty()) continue;
+    bool meets = false;
+    for (uint32_t k = 0; k < (past ? path.count : 1u) && !meets; ++k) {
+      const PathPiece& piece = path.pieces[k];
+      double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
+      for (uint32_t age = 0; age < body.path.pieces() && !meets; ++age) {
+        const BodyPath::Piece& motion = body.path.piece(age);
+        if (until <= now_s - BodyPath::kBehind_s) break;
+        const double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s}), to = until;
+        until = std::min(until, motion.from_s);
+        if (from >= to) continue;
+        const dvec3 v = piece.velocity_mps - motion.pose.velocity_mps;
+        const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from - motion.from_s);
+        const dvec3 here = middle + piece.from_m + piece.velocity_mps * (from - now_s - piece.from_s);
+        meets = meetsSphere(there - here, v, 0.0, to - from, body.radius_m + radius);
+      }
+    }
+    if (meets) met_bodies_.push_back(&body);
+  }
+}
+
+bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath& path, double now_s, bool past) {
+  met_.clear();
+  met_bodies_.clear();
+  if (list_.empty()) return false;
+  if (!nodes_.empty()) {
+    for (uint32_t k = 0; k < (past ? path.count : 1u); ++k) gatherStatic(middle, half, path.pieces[k]);
+  }
+  gatherBodies(middle, glm::length(half), path, now_s, past);
+  return !met_.empty() || !met_bodies_.empty();
+}
+
+// The first time within the piece at which the drop is inside the body, kNever_s when it is not.
+double Shelter::entryOfBody(const Body& body, const dvec3& place, const PathPiece& piece, double now_s) {
+  double first = kNever_s;
+  double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
+  for (uint32_t age = 0; age < body.path.pieces(); ++age) {
+    const BodyPath::Piece& motion = body.path.piece(age);
+    if (until <= now_s - BodyPath::kBehind_s) break;
+    double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s});
+    const double to = until;
+    until = std::min(until, motion.from_s);
+    if (from >= to) continue;
+    const auto drop = [&](double t) { return place + piece.from_m + piece.velocity_mps * (t - now_s - piece.from_s); };
+    const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from - motion.from_s);
+    if (!meetsSphere(there - drop(from), piece.velocity_mps - motion.pose.velocity_mps, 0.0, to - from, body.radius_m)) continue;
+    // A turning body sees a straight path bent; cut so that chords of 3 m arms stay within 1 mm: 0.05 rad.
+    const double turn = glm::length(motion.pose.angular_velocity_radps);
+    const double step = turn > 1e-6 ? 0.05 / turn : to - from;
+    for (; from < to; from += step) {
+      const double end = std::min(from + step, to);
+      const dvec3 a = intoBody(movedOn(motion.pose, from - motion.from_s), drop(from));
+      const dvec3 b = intoBody(movedOn(motion.pose, end - motion.from_s), drop(end));
+      if (end <= from) break;
+      for (const uint32_t i : body.volumes) {
+        ++tests_;
+        const Span span = timesInside(list_[i]->shape.planes, a, (b - a) / (end - from), 0.0, end - from);
+        if (span.enter <= span.leave) first = std::min(first, from + span.enter - now_s);
+      }
+    }
+  }
+  return first;
+}
+
+bool Shelter::cameThrough(const dvec3& place, const ClassPath& path, double now_s) {
+  for (uint32_t k = 1; k < path.count; ++k) {
+    const PathPiece& piece = path.pieces[k];
+    const dvec3 from = place + piece.from_m - piece.velocity_mps * piece.from_s;
+    for (const uint32_t i : met_) {
+      ++tests_;
+      const Span span = timesInside(list_[i]->shape.planes, from, piece.velocity_mps, piece.from_s, piece.to_s);
+      if (span.enter <= span.leave) return true;
+    }
+    for (const Body* body : met_bodies_) {
+      if (entryOfBody(*body, place, piece, now_s) < kNever_s) return true;
+    }
+  }
+  return false;
+}
+
+double Shelter::willEnter(const dvec3& place, const ClassPath& path, double now_s) {
+  const PathPiece& piece = path.pieces[0];
+  double first = kNever_s;
+  for (const uint32_t i : met_) {
+    ++tests_;
+    const Span span = timesInside(list_[i]->shape.planes, place, piece.velocity_mps, 0.0, piece.to_s);
+    if (span.enter <= span.leave) first = std::min(first, span.enter);
+  }
+  for (const Body* body : met_bodies_) first = std::min(first, entryOfBody(*body, place, piece, now_s));
+  return first;
+}
+
+void Shelter::near(const dvec3& eye, double radius, std::vector<NearVolume>& out) const {
+  for (uint32_t i = 0; i < statics_; ++i) {
+    const Convex& shape = list_[i]->shape;
+    const dvec3 gap = glm::max(glm::max(shape.box.low - eye, eye - shape.box.high), dvec3(0.0));
+    if (glm::dot(gap, gap) > radius * radius) continue;
+    out.push_back({0, Pose{}, shape.planes, shape.centre, shape.radius_m});
+  }
+  for (const auto& [id, body] : bodies_) {
+    if (!body.known) continue;
+    for (const uint32_t i : body.volumes) {
+      const Convex& shape = list_[i]->shape;
+      if (glm::distance(outOfBody(body.path.pose(), shape.centre), eye) > radius + shape.radius_m) continue;
+      out.push_back({id, body.path.pose(), shape.planes, shape.centre, shape.radius_m});
+    }
+  }
+}
+
+}  // namespace rg::rain

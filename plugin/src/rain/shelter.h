@@ -1,0 +1,107 @@
+// What keeps rain off: static volumes in a tree and the volumes of moving bodies, and the one question asked of them: when does a drop's
+// path, known where it came from and where it goes, meet any of them?
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rain/motion.h"
+#include "rain/picture.h"
+#include "rain/volume.h"
+#include "tick.h"
+
+namespace rg::rain {
+
+inline constexpr double kNever_s = std::numeric_limits<double>::infinity();
+
+// A stretch of a class's path: relative to where a drop is now, world axes; times relative to now.
+struct PathPiece {
+  double from_s = 0.0, to_s = 0.0;
+  glm::dvec3 from_m{0.0};  // from the drop's place now to its place at from_s
+  glm::dvec3 velocity_mps{0.0};
+};
+
+// The path of a class: the first piece is the way to come, the others the way it came, newest first.
+struct ClassPath {
+  static constexpr uint32_t kMost = 18;
+  std::array<PathPiece, kMost> pieces;
+  uint32_t count = 0;
+};
+
+class Shelter {
+ public:
+  // Far enough to have come from any cloud's side of any roof, or to have left any view.
+  static constexpr double kPath_m = 300.0;
+
+  std::string set(uint32_t id, const VolumeInfo& info);
+  bool remove(uint32_t id);
+  void removeVehicle(uint32_t vehicle);
+  bool empty() const { return volumes_.empty(); }
+  void shift(const glm::dvec3& shift_m);
+
+  // What became different at a tick.
+  struct Changes {
+    bool volumes = false;  // some were set or removed
+    bool bodies = false;   // one departed from its prediction
+  };
+  Changes advance(double time_s, std::span<const VehicleState> vehicles);
+  void restart();  // what moved before is forgotten; the next advance() begins afresh
+
+  // Finds what the paths through a box (middle, half size) may meet; the next questions are about drops in it.
+  // `past`: also the way they came. Returns whether there is anything.
+  bool lookAround(const glm::dvec3& middle_m, const glm::dvec3& half_m, const ClassPath& path, double now_s, bool past);
+  // Whether a drop that is at `place_m` now came through a volume, or is in one.
+  bool cameThrough(const glm::dvec3& place_m, const ClassPath& path, double now_s);
+  // When it will enter one, relative to now; 0 when it is inside, kNever_s when it will not.
+  double willEnter(const glm::dvec3& place_m, const ClassPath& path, double now_s);
+
+  uint64_t tests() const { return tests_; }
+  void clearTests() { tests_ = 0; }
+
+  // The volumes that touch a sphere, nearest first, for clipping streaks.
+  void near(const glm::dvec3& eye_m, double radius_m, std::vector<NearVolume>& out) const;
+
+ private:
+  struct Volume {
+    uint32_t id = 0;
+    uint32_t vehicle = 0;
+    bool active = true;
+    Convex shape;
+  };
+  struct Node {
+    Box box;
+    uint32_t first = 0;  // of order_, or the left child (the right one follows it)
+    uint32_t count = 0;  // 0: inner
+  };
+  struct Body {
+    BodyPath path;
+    bool known = false;
+    double radius_m = 0.0;  // about its origin
+    std::vector<uint32_t> volumes;
+  };
+
+  void rebuild();
+  void split(uint32_t node, uint32_t first, uint32_t count);
+  void gatherStatic(const glm::dvec3& middle_m, const glm::dvec3& half_m, const PathPiece& piece);
+  void gatherBodies(const glm::dvec3& middle_m, double radius_m, const ClassPath& path, double now_s, bool past);
+  double entryOfBody(const Body& body, const glm::dvec3& place_m, const PathPiece& piece, double now_s);
+
+  std::map<uint32_t, std::shared_ptr<Volume>> volumes_;
+  bool changed_ = false;
+  std::vector<std::shared_ptr<const Volume>> list_;  // all active ones; static first, in the order of the tree's leaves
+  uint32_t statics_ = 0;
+  std::vector<Node> nodes_;
+  std::map<uint32_t, Body> bodies_;
+  std::vector<uint32_t> met_;            // found by lookAround: static volumes
+  std::vector<const Body*> met_bodies_;  // and bodies
+  std::vector<uint32_t> stack_;
+  uint64_t tests_ = 0;
+};
+
+}  // namespace rg::rain

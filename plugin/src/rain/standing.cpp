@@ -1,0 +1,99 @@
+#include "rain/standing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rg::rain {
+namespace {
+
+constexpr double kReferenceReach_per_m = 2.0 * 1663.0;  // visibility factor 2 at the reference resolution
+constexpr double kCellsPerReach = 6.0;
+
+// Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators": SplitMix64's mixing.
+uint64_t mix(uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+// ln(x) for x in (0, 1], from exact operations alone so that every machine's rain is the same: x = m 2^e, ln m = 2 atanh((m - 1) / (m + 1)).
+double portableLog(double x) {
+  int exponent = 0;
+  double mantissa = std::frexp(x, &exponent);
+  if (mantissa < 0.70710678118654752) {
+    mantissa *= 2.0;
+    --exponent;
+  }
+  const double s = (mantissa - 1.0) / (mantissa + 1.0), q = s * s;  // |s| < 0.172: the term left out is below 1e-12
+  const double series = 1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q / 13)))));
+  return 2.0 * s * series + exponent * 0.69314718055994531;
+}
+
+}  // namespace
+
+Candidates::Candidates(uint64_t seed, const CellKey& key, double cell_m3) : per_gap_m3_(1.0 / cell_m3) {
+  const uint64_t xy = uint64_t{static_cast<uint32_t>(key.x)} << 32 | static_cast<uint32_t>(key.y);
+  const uint64_t zk = uint64_t{static_cast<uint32_t>(key.z)} << 32 | key.kind;
+  state_ = mix(mix(mix(seed + 0x9e3779b97f4a7c15u) ^ xy) + zk);
+}
+
+uint64_t Candidates::draw() {
+  state_ += 0x9e3779b97f4a7c15u;
+  return mix(state_);
+}
+
+const Candidate& Candidates::next() {
+  const uint64_t a = draw(), b = draw();
+  const double gap = -portableLog((static_cast<double>(a >> 32) + 0.5) * 0x1p-32);
+  candidate_.threshold_m3 += gap * per_gap_m3_;
+  candidate_.size = (static_cast<double>(a & 0xffffffffu) + 0.5) * 0x1p-32;
+  candidate_.fraction_x = static_cast<uint32_t>(b & 0xffffu);
+  candidate_.fraction_y = static_cast<uint32_t>(b >> 16 & 0xffffu);
+  candidate_.fraction_z = static_cast<uint32_t>(b >> 32 & 0xffffu);
+  candidate_.id = static_cast<uint32_t>(a ^ b >> 32);
+  return candidate_;
+}
+
+const std::array<ClassLattice, kSpeedClasses>& classLattices() {
+  static const std::array<ClassLattice, kSpeedClasses> lattices = [] {
+    std::array<ClassLattice, kSpeedClasses> made;
+    for (uint32_t i = 0; i < kSpeedClasses; ++i) {
+      made[i].drops = speedClasses()[i];
+      // Rounded, so that the last digits of a machine's exp and log do not decide where drops are.
+      made[i].drops.speed_mps = std::round(made[i].drops.speed_mps * 0x1p20) * 0x1p-20;
+      made[i].cell_m = std::round(kReferenceReach_per_m * 1e-3 * made[i].drops.to_mm / kCellsPerReach * 0x1p20) * 0x1p-20;
+      made[i].cell_m3 = made[i].cell_m * made[i].cell_m * made[i].cell_m;
+    }
+    return made;
+  }();
+  return lattices;
+}
+
+RateHistory::Entry RateHistory::entryOf(double rate_mm_h) {
+  Entry entry;
+  entry.law = SizeLaw::of(rate_mm_h);
+  for (uint32_t i = 0; i < kSpeedClasses; ++i) {
+    entry.density_m3[i] = entry.law.numberDensity(speedClasses()[i].from_mm, speedClasses()[i].to_mm);
+  }
+  return entry;
+}
+
+void RateHistory::fill(double rate_mm_h) {
+  ring_.fill(entryOf(rate_mm_h));
+  now_ = wettest_ = 0;
+  steady_ = kTicks;
+}
+
+void RateHistory::add(double rate_mm_h) {
+  const uint32_t before = now_;
+  now_ = (now_ + 1) % kTicks;
+  const bool same = SizeLaw::of(rate_mm_h).rate_mm_h == ring_[before].law.rate_mm_h;
+  if (same && steady()) return;  // all entries are alike
+  ring_[now_] = same ? ring_[before] : entryOf(rate_mm_h);
+  steady_ = same ? steady_ + 1 : 1;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    if (ring_[i].law.rate_mm_h > ring_[wettest_].law.rate_mm_h) wettest_ = i;
+  }
+}
+
+}  // namespace rg::rain
