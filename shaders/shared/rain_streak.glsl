@@ -1,63 +1,9 @@
-// A falling drop's record, where the drop is, and the streak it draws during an exposure, clipped at shelters.
+// Where a drop is, and the streak it draws during an exposure, clipped at shelters. In GLSL, declare `RainShelter rain_shelter` (a uniform
+// block's) before including this.
 #ifndef RG_SHARED_RAIN_STREAK_GLSL
 #define RG_SHARED_RAIN_STREAK_GLSL
-#include "shared/compat.glsl"
+#include "shared/rain_drop.glsl"
 RG_SHARED_BEGIN
-
-RG_CONST uint kRainClasses = 32u;
-RG_CONST uint kRainNearPlanes = 512u;  // 8 KiB: with the volumes it stays below the 16 KiB every driver gives a uniform block
-RG_CONST uint kRainNearVolumes = 64u;
-RG_CONST float kRainEndUnits = 1024.0f;  // steps of RainDrop.end in a tick: 8 us, 0.3 mm of path at 40 m/s
-
-// Written once, when the drop is born (again only when its end changes). Its place is kept as cell and fraction of its class's standing
-// lattice: integers do not wear out however far the drop is from the origin, nor however long it rains.
-struct RainDrop {
-  int cell_x;
-  int cell_y;
-  int cell_z;
-  uint fraction_xy;  // 16 bits each: 0.05 mm in the largest cells
-  uint fraction_z_class;
-  float diameter_m;  // 0: no drop in this slot
-  uint end;          // when it dies in a shelter, in 1/1024 tick since the field's start, modulo 2^32; compare by difference
-  uint id;
-};
-RG_SIZE(RainDrop, 32)
-
-// A class's standing frame, as seen from the eye at the time of drawing.
-struct RainClass {
-  vec4 corner_cell;     // xyz: the corner of cell `base` from the eye, world axes, m; w: the cell's size, m
-  vec4 velocity_reach;  // xyz: of the drops, world axes, m/s; w: how far a drop is seen per metre of its diameter
-  ivec4 base;           // xyz: the eye's cell; w unused
-};
-RG_SIZE(RainClass, 48)
-
-// A convex volume near the eye: planes [first, first + count) of RainShelter.planes.
-struct RainVolume {
-  vec4 sphere;  // centre from the eye, radius
-  uint first;
-  uint count;
-  uint spare0;
-  uint spare1;
-};
-RG_SIZE(RainVolume, 32)
-
-struct RainShelter {
-  vec4 planes[kRainNearPlanes];  // inside where dot(xyz, p from the eye) <= w
-  RainVolume volumes[kRainNearVolumes];
-  uint volume_count;
-  uint spare0;
-  uint spare1;
-  uint spare2;
-};
-
-struct RainView {
-  vec4 eye_velocity_exposure;  // xyz: of the eye, m/s; w: exposure time, s
-  uint now;                    // the picture's time as in RainDrop.end
-  float tick_s;
-  uint spare0;
-  uint spare1;
-};
-RG_SIZE(RainView, 32)
 
 // A streak as seen from the eye, world axes: the drop's place, its velocity past the eye, and the times about the picture's between which
 // the streak is drawn. from_s > to_s: nothing is drawn.

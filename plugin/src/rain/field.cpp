@@ -19,6 +19,7 @@ constexpr uint32_t kEndUnits = 1024;               // as shared::kRainEndUnits
 constexpr uint32_t kEndless = 1u << 30;            // ticks' units ahead: 2.4 h, longer than any drop stays in view
 constexpr double kLongestEnd_s = 8000.0;           // ends beyond are none
 constexpr int64_t kLongestGap = 2048;              // ticks left out at once; more is a seek
+constexpr double kLongestStreak_m = 5.0;           // beyond the reach a volume may still be met by a streak
 constexpr double kCeilingAboveEye_m = 10.0;        // rain that sets in is first seen there
 constexpr double kLeastTurn_radps = 1.0472;        // 60 deg/s: a turn of the view that needs no warning
 constexpr double kFilled = 0.93;                   // of the buffer that the expected number may take: 7 % for chance and the cells' edges
@@ -508,10 +509,11 @@ void Field::State::describe(Picture& picture) const {
     picture.classes[kind] = {classOrigin(kind), classVelocity(kind), classLattices()[kind].cell_m, reachPerDiameter()};
   }
   picture.volumes.clear();
-  const double reach = reachPerDiameter() * 1e-3 * kLargest_mm;
+  std::vector<dvec3> eyes;
   for (const auto& view : views) {
-    if (view->moved) shelter.near(view->eye_m, reach, picture.volumes);
+    if (view->moved) eyes.push_back(view->eye_m);
   }
+  shelter.near(eyes, reachPerDiameter() * 1e-3 * kLargest_mm + kLongestStreak_m, picture.volumes);
 }
 
 void Field::publish(Upload& upload) {

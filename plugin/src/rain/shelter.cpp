@@ -278,18 +278,19 @@ double Shelter::willEnter(const dvec3& place, const ClassPath& path, double now_
   return first;
 }
 
-void Shelter::near(const dvec3& eye, double radius, std::vector<NearVolume>& out) const {
+void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearVolume>& out) const {
+  const auto closeTo = [&](auto&& gap) { return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; }); };
   for (uint32_t i = 0; i < statics_; ++i) {
     const Convex& shape = list_[i]->shape;
-    const dvec3 gap = glm::max(glm::max(shape.box.low - eye, eye - shape.box.high), dvec3(0.0));
-    if (glm::dot(gap, gap) > radius * radius) continue;
+    if (!closeTo([&](const dvec3& eye) { return glm::length(glm::max(glm::max(shape.box.low - eye, eye - shape.box.high), dvec3(0.0))); })) continue;
     out.push_back({0, Pose{}, shape.planes, shape.centre, shape.radius_m});
   }
   for (const auto& [id, body] : bodies_) {
     if (!body.known) continue;
     for (const uint32_t i : body.volumes) {
       const Convex& shape = list_[i]->shape;
-      if (glm::distance(outOfBody(body.path.pose(), shape.centre), eye) > radius + shape.radius_m) continue;
+      const dvec3 centre = outOfBody(body.path.pose(), shape.centre);
+      if (!closeTo([&](const dvec3& eye) { return glm::distance(centre, eye) - shape.radius_m; })) continue;
       out.push_back({id, body.path.pose(), shape.planes, shape.centre, shape.radius_m});
     }
   }

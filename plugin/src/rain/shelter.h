@@ -64,8 +64,8 @@ class Shelter {
   uint64_t tests() const { return tests_; }
   void clearTests() { tests_ = 0; }
 
-  // The volumes that touch a sphere, nearest first, for clipping streaks.
-  void near(const glm::dvec3& eye_m, double radius_m, std::vector<NearVolume>& out) const;
+  // Adds the volumes that come nearer than `radius_m` to any of the eyes, for clipping streaks.
+  void near(std::span<const glm::dvec3> eyes_m, double radius_m, std::vector<NearVolume>& out) const;
 
  private:
   struct Volume {
