@@ -33,7 +33,8 @@ class Timeline {
   // Takes a sample later than all before. Vehicles and views it does not list stay as they were (a moving vehicle comes to rest).
   void add(const Sample& sample);
   bool empty() const { return samples_.empty(); }
-  int64_t lastTimeNs() const { return samples_.back().time_ns; }
+  const Sample& first() const { return samples_.front(); }
+  const Sample& last() const { return samples_.back(); }
 
   // Inputs of the tick with this index; spans stay valid until the next call. Needs a sample.
   const Tick& tick(int64_t index);

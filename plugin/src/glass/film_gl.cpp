@@ -62,6 +62,10 @@ std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKern
   return std::make_shared<FilmPrograms>(gl, leaky);
 }
 
+void abandonFilmPrograms(FilmPrograms& p) {
+  for (gl::Program* program : {&p.take, &p.add, &p.ridge, &p.sweep, &p.leave, &p.step}) program->forget();
+}
+
 FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map)
     : gl_(gl),
       programs_(std::move(programs)),

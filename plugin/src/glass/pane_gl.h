@@ -19,6 +19,8 @@ namespace rg::glass {
 enum class FilmKernel { none, take, add, ridge, sweep, leave, step };
 class FilmPrograms;
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky = FilmKernel::none);
+// The context is gone: forget names instead of deleting them.
+void abandonFilmPrograms(FilmPrograms& programs);
 
 // What is drawn of a pane; GL names stay the PaneGl's. Fields as in look_gl.h's LookPane.
 struct PaneDrawn {

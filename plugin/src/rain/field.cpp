@@ -447,6 +447,9 @@ Field::~Field() = default;
 
 std::string Field::setVolume(uint32_t id, const VolumeInfo& info) { return state_->shelter.set(id, info); }
 bool Field::removeVolume(uint32_t id) { return state_->shelter.remove(id); }
+bool Field::openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without) {
+  return state_->shelter.openToSky(place_m, velocity_mps, without);
+}
 void Field::removeVehicle(uint32_t vehicle) { state_->shelter.removeVehicle(vehicle); }
 
 void Field::setVisibility(const Visibility& visibility) {

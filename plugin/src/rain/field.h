@@ -74,6 +74,10 @@ class Field {
   void seek(int64_t tick_index);              // rain as it is at that tick (wind and rate as now); the next tick() is of that index or later
   void rebase(const glm::dvec3& shift_m);     // the host's world moved: p_new = p_old - shift
 
+  // Whether rain that falls with `velocity_mps` reaches a place as things stand at the last tick; volumes of the vehicle `without` (0: none)
+  // do not count.
+  bool openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without);
+
   FieldStats stats() const;
   uint64_t hash() const;  // over the live drops; independent of the order they came in
 

@@ -278,6 +278,27 @@ double Shelter::willEnter(const dvec3& place, const ClassPath& path, double now_
   return first;
 }
 
+bool Shelter::openToSky(const dvec3& place, const dvec3& velocity, uint32_t without) {
+  const double speed = glm::length(velocity);
+  if (list_.empty() || speed <= 0.0) return true;
+  const double past_s = kPath_m / speed;
+  met_.clear();
+  if (!nodes_.empty()) gatherStatic(place, dvec3(0.0), {-past_s, 0.0, -velocity * past_s, velocity});
+  const auto meets = [&](const Convex& shape, const dvec3& from, const dvec3& v) {
+    ++tests_;
+    const Span span = timesInside(shape.planes, from, v, 0.0, past_s);
+    return span.enter <= span.leave;
+  };
+  if (std::any_of(met_.begin(), met_.end(), [&](uint32_t i) { return meets(list_[i]->shape, place, -velocity); })) return false;
+  for (const auto& [id, body] : bodies_) {
+    if (id == without || !body.known) continue;
+    const dvec3 from = intoBody(body.path.pose(), place);
+    const dvec3 v = (intoBody(body.path.pose(), place - velocity) - from);
+    if (std::any_of(body.volumes.begin(), body.volumes.end(), [&](uint32_t i) { return meets(list_[i]->shape, from, v); })) return false;
+  }
+  return true;
+}
+
 void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearVolume>& out) const {
   const auto closeTo = [&](auto&& gap) { return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; }); };
   for (uint32_t i = 0; i < statics_; ++i) {

@@ -61,6 +61,10 @@ class Shelter {
   // When it will enter one, relative to now; 0 when it is inside, kNever_s when it will not.
   double willEnter(const glm::dvec3& place_m, const ClassPath& path, double now_s);
 
+  // Whether rain that falls with `velocity_mps` reaches a place: no volume, as they stand now, lies up-stream of it. Volumes of the body
+  // `without` do not count (a pane lies against its own cabin).
+  bool openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without);
+
   uint64_t tests() const { return tests_; }
   void clearTests() { tests_ = 0; }
 

@@ -1,0 +1,553 @@
+// The ABI's edge: checks arguments, catches everything, returns a code. No maths here.
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <vector>
+
+#include "checks.h"
+#include "defaults.h"
+#include "frame.h"
+
+struct rg_instance {
+  rg::Frame frame;
+  rg_log_fn log;
+  void* log_user;
+};
+
+namespace rg {
+namespace {
+
+constexpr uint32_t kMostLamps = 4096, kMostPlacedDrops = 1000000, kMostVertices = 1000000;
+constexpr double kMaxDouble = 1.7e308;  // any finite number
+
+thread_local std::string create_error;
+
+// Numbers of log messages: the negated result code for refused calls, from 100 on for remarks.
+enum : uint32_t { kLogThinned = 101, kLogTimeDropped = 102, kLogAttached = 103 };
+
+void say(const rg_instance& instance, rg_log_level level, uint32_t message, const std::string& text) {
+  if (instance.log != nullptr) instance.log(instance.log_user, level, message, text.c_str());
+}
+
+rg_result failed(rg_instance* instance, rg_result code, const char* text) {
+  try {
+    (instance != nullptr ? instance->frame.last_error : create_error) = text;
+    if (instance != nullptr) say(*instance, RG_LOG_ERROR, static_cast<uint32_t>(-code), text);
+  } catch (...) {
+    return RG_ERROR_OUT_OF_MEMORY;
+  }
+  return code;
+}
+
+rg_result codeOf(gl::Error::Kind kind) {
+  switch (kind) {
+    case gl::Error::Kind::kVersion: return RG_ERROR_GL_VERSION;
+    case gl::Error::Kind::kDriver: return RG_ERROR_GL;
+    case gl::Error::Kind::kOutOfMemory: return RG_ERROR_OUT_OF_MEMORY;
+    case gl::Error::Kind::kWrongOrder: return RG_ERROR_WRONG_ORDER;
+  }
+  return RG_ERROR_INTERNAL;
+}
+
+// Runs a call; whatever is thrown becomes a code and the instance's last error.
+template <typename Call>
+rg_result guarded(rg_instance* instance, Call&& call) {
+  if (instance == nullptr) return failed(nullptr, RG_ERROR_BAD_ARGUMENT, "the instance is null");
+  try {
+    if constexpr (std::is_void_v<decltype(call(instance->frame))>) {
+      call(instance->frame);
+      return RG_OK;
+    } else {
+      return call(instance->frame);
+    }
+  } catch (const ApiError& e) {
+    return failed(instance, e.code(), e.what());
+  } catch (const gl::Error& e) {
+    return failed(instance, codeOf(e.kind()), e.what());
+  } catch (const std::invalid_argument& e) {
+    return failed(instance, RG_ERROR_BAD_ARGUMENT, e.what());
+  } catch (const std::bad_alloc&) {
+    return failed(instance, RG_ERROR_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::exception& e) {
+    return failed(instance, RG_ERROR_INTERNAL, e.what());
+  } catch (...) {
+    return failed(instance, RG_ERROR_INTERNAL, "unknown failure");
+  }
+}
+
+void checkId(uint32_t id, const char* what) {
+  if (id == 0) refuse(std::string(what) + " id is 0; ids begin at 1");
+}
+
+template <typename T>
+T* checkOut(T* out, const char* name) {
+  if (out == nullptr) refuse(std::string(name) + " is null");
+  return out;
+}
+
+// An out struct says its size, so that a host compiled against an older header gets no more than it has room for.
+template <typename T>
+void writeStruct(T* out, T value, const char* name) {
+  checkOut(out, name);
+  if (out->struct_size < sizeof(T) || out->struct_size > kLargestStruct) refuse(std::string(name) + ".struct_size is wrong", RG_ERROR_BAD_STRUCT);
+  value.struct_size = out->struct_size;
+  std::memcpy(out, &value, sizeof(T));
+}
+
+glm::dvec3 finiteVector(const double v[3], const char* name) {
+  for (int i = 0; i < 3; ++i) checkRange(v[i], -kMaxDouble, kMaxDouble, name);
+  return {v[0], v[1], v[2]};
+}
+
+glm::dvec3 unitVector(const double v[3], const char* name) {
+  const glm::dvec3 vector = finiteVector(v, name);
+  if (std::abs(glm::length(vector) - 1.0) > 1e-3) refuse(std::string(name) + " is not of unit length");
+  return glm::normalize(vector);
+}
+
+glm::vec3 radiance(const float v[3], const char* name) {
+  for (int i = 0; i < 3; ++i) checkRange(static_cast<double>(v[i]), 0.0, 1e9, name);
+  return {v[0], v[1], v[2]};
+}
+
+// ---- life ----
+
+rg_result create(const rg_create_info* in, rg_instance** out) {
+  if (out == nullptr) return failed(nullptr, RG_ERROR_BAD_ARGUMENT, "create: out is null");
+  *out = nullptr;
+  try {
+    const rg_create_info info = readCreateInfo(in);
+    *out = new rg_instance{Frame(info), info.log, info.log_user};
+    return RG_OK;
+  } catch (const ApiError& e) {
+    return failed(nullptr, e.code(), e.what());
+  } catch (const std::bad_alloc&) {
+    return failed(nullptr, RG_ERROR_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::exception& e) {
+    return failed(nullptr, RG_ERROR_INTERNAL, e.what());
+  }
+}
+
+void destroy(rg_instance* instance) { delete instance; }
+
+const char* lastError(rg_instance* instance) { return instance != nullptr ? instance->frame.last_error.c_str() : create_error.c_str(); }
+
+// ---- GL ----
+
+rg_result attachGl(rg_instance* instance, const rg_gl_info* in) {
+  return guarded(instance, [&](Frame& frame) {
+    const rg_gl_info info = readStruct(in, "rg_gl_info");
+    if (info.get_proc == nullptr) refuse("rg_gl_info.get_proc is null");
+    frame.attach(info);
+    say(*instance, RG_LOG_INFO, kLogAttached, "attached");
+  });
+}
+
+rg_result detachGl(rg_instance* instance) {
+  return guarded(instance, [](Frame& frame) { frame.detach(); });
+}
+
+rg_result contextLost(rg_instance* instance) {
+  return guarded(instance, [](Frame& frame) { frame.contextLost(); });
+}
+
+// ---- objects ----
+
+rg_result setVolume(rg_instance* instance, uint32_t id, const rg_volume_info* in) {
+  return guarded(instance, [&](Frame& frame) {
+    checkId(id, "volume");
+    const rg_volume_info info = readStruct(in, "rg_volume_info");
+    rain::VolumeInfo volume;
+    volume.vehicle = info.vehicle;
+    volume.name = readName(info.name, "rg_volume_info.name");
+    volume.active = info.active != 0;
+    if ((info.vertices_m == nullptr) == (info.planes == nullptr)) refuse("volume \"" + volume.name + "\": give vertices or planes, not both or none");
+    std::vector<glm::dvec3> vertices;
+    std::vector<rain::Plane> planes;
+    if (info.vertices_m != nullptr) {
+      checkArray(info.vertices_m, info.vertex_count, 3 * sizeof(double), 3 * sizeof(double), rain::Convex::kMaxVertices, "rg_volume_info.vertices_m");
+      for (uint32_t i = 0; i < info.vertex_count; ++i) vertices.emplace_back(info.vertices_m[3 * i], info.vertices_m[3 * i + 1], info.vertices_m[3 * i + 2]);
+    } else {
+      checkArray(info.planes, info.plane_count, 4 * sizeof(double), 4 * sizeof(double), rain::Convex::kMaxPlanes, "rg_volume_info.planes");
+      for (uint32_t i = 0; i < info.plane_count; ++i) {
+        const double* p = info.planes + 4 * i;
+        planes.push_back({{p[0], p[1], p[2]}, p[3]});
+      }
+    }
+    volume.vertices = vertices;
+    volume.planes = planes;
+    frame.setVolume(id, volume);
+  });
+}
+
+rg_result removeVolume(rg_instance* instance, uint32_t id) {
+  return guarded(instance, [&](Frame& frame) { frame.removeVolume(id); });
+}
+
+rg_result removeVehicle(rg_instance* instance, uint32_t id) {
+  return guarded(instance, [&](Frame& frame) {
+    checkId(id, "vehicle");
+    frame.removeVehicle(id);
+  });
+}
+
+template <typename Vector>
+std::vector<Vector> readFloats(const float* data, uint32_t count, size_t stride, const char* name) {
+  const size_t step = stride == 0 ? sizeof(Vector) : stride;
+  checkArray(data, count, step, sizeof(Vector), kMostVertices, name);
+  std::vector<Vector> out(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    std::memcpy(&out[i], element(data, step, i), sizeof(Vector));
+    for (glm::length_t k = 0; k < Vector::length(); ++k) {
+      if (!std::isfinite(out[i][k])) refuse(std::string(name) + "[" + std::to_string(i) + "] is not a number");
+    }
+  }
+  return out;
+}
+
+rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
+  return guarded(instance, [&](Frame& frame) {
+    checkId(id, "pane");
+    const rg_pane_info info = readStruct(in, "rg_pane_info");
+    checkId(info.vehicle, "rg_pane_info.vehicle");
+    glass::PaneInfo pane;
+    pane.name = readName(info.name, "rg_pane_info.name");
+    if (info.vertex_count == 0 || info.index_count == 0) refuse("pane \"" + pane.name + "\" has no triangles");
+    const auto positions = readFloats<glm::vec3>(info.positions_m, info.vertex_count, info.position_stride, "rg_pane_info.positions_m");
+    const auto uvs = readFloats<glm::vec2>(info.uvs, info.vertex_count, info.uv_stride, "rg_pane_info.uvs");
+    checkArray(info.indices, info.index_count, sizeof(uint32_t), sizeof(uint32_t), 6 * uint64_t{kMostVertices}, "rg_pane_info.indices");
+    if (info.index_count % 3 != 0) refuse("pane \"" + pane.name + "\": index_count is no multiple of 3");
+    if (info.glass < RG_GLASS_UNCOATED || info.glass > RG_GLASS_NEW_COATING) refuse("rg_pane_info.glass is no rg_glass");
+    checkRange(info.advancing_deg, 0.0, 175.0, "rg_pane_info.advancing_deg");
+    checkRange(info.receding_deg, 0.0, 175.0, "rg_pane_info.receding_deg");
+    checkRange(info.texel_m, 0.5e-3, 20e-3, "rg_pane_info.texel_m");
+    checkRange(info.max_drops, 0.0, 1e6, "rg_pane_info.max_drops");
+    if (info.opening_m != 0.0) refuse("rg_pane_info.opening_m: this build has no sliding windows", RG_ERROR_MISSING_FEATURE);
+    pane.positions_m = positions;
+    pane.uvs = uvs;
+    pane.indices = {info.indices, info.index_count};
+    pane.glass = static_cast<glass::Glass>(info.glass);
+    pane.advancing_rad = glm::radians(info.advancing_deg);
+    pane.receding_rad = glm::radians(info.receding_deg);
+    pane.texel_m = info.texel_m;
+    pane.max_drops = info.max_drops;
+    pane.film_enabled = info.film_enabled != 0;
+    frame.setPane(id, info.vehicle, info.active != 0, pane);
+  });
+}
+
+rg_result removePane(rg_instance* instance, uint32_t id) {
+  return guarded(instance, [&](Frame& frame) { frame.removePane(id); });
+}
+
+rg_result setWiper(rg_instance* instance, uint32_t id, const rg_wiper_info* in) {
+  return guarded(instance, [&](Frame& frame) {
+    checkId(id, "wiper");
+    const rg_wiper_info info = readStruct(in, "rg_wiper_info");
+    glass::WiperInfo wiper;
+    wiper.pivot_m = finiteVector(info.pivot_m, "rg_wiper_info.pivot_m");
+    wiper.axis = unitVector(info.axis, "rg_wiper_info.axis");
+    wiper.rest_direction = unitVector(info.rest_direction, "rg_wiper_info.rest_direction");
+    checkRange(info.arm_m, 0.0, 5.0, "rg_wiper_info.arm_m");
+    checkRange(info.blade_m, 0.01, 5.0, "rg_wiper_info.blade_m");
+    checkRange(info.blade_angle_rad, -3.2, 3.2, "rg_wiper_info.blade_angle_rad");
+    checkRange(info.residual_film_m, 0.0, 1e-4, "rg_wiper_info.residual_film_m");
+    wiper.arm_m = info.arm_m;
+    wiper.blade_m = info.blade_m;
+    wiper.blade_angle_rad = info.blade_angle_rad;
+    wiper.residual_film_m = info.residual_film_m;
+    frame.setWiper(id, info.pane, wiper);
+  });
+}
+
+rg_result removeWiper(rg_instance* instance, uint32_t id) {
+  return guarded(instance, [&](Frame& frame) { frame.removeWiper(id); });
+}
+
+rg_result placeDrops(rg_instance* instance, uint32_t pane, const rg_glass_drop* in, uint32_t count) {
+  return guarded(instance, [&](Frame& frame) {
+    checkArray(in, count, sizeof(rg_glass_drop), sizeof(rg_glass_drop), kMostPlacedDrops, "drops");
+    std::vector<glass::PlacedDrop> drops;
+    for (uint32_t i = 0; i < count; ++i) {
+      checkRange(in[i].u_m, -100.0, 100.0, "rg_glass_drop.u_m");
+      checkRange(in[i].v_m, -100.0, 100.0, "rg_glass_drop.v_m");
+      checkRange(in[i].base_radius_m, 1e-5, 0.02, "rg_glass_drop.base_radius_m");
+      checkRange(in[i].contact_angle_deg, 1.0, 170.0, "rg_glass_drop.contact_angle_deg");
+      drops.push_back({in[i].u_m, in[i].v_m, in[i].base_radius_m, glm::radians(in[i].contact_angle_deg)});
+    }
+    frame.placeDrops(pane, drops);
+  });
+}
+
+// ---- frame ----
+
+rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, uint32_t count, size_t stride) {
+  return guarded(instance, [&](Frame& frame) {
+    checkArray(in, count, stride, sizeof(rg_sample), 1000000, "samples");
+    std::vector<Sample> samples;
+    samples.reserve(count);
+    const Sample* before = frame.lastSample();
+    for (uint32_t i = 0; i < count; ++i) {
+      samples.push_back(readSample(element(in, stride, i), before));
+      before = &samples.back();
+    }
+    const rg_result result = frame.update(time_ns, samples);
+    if (result == RG_REMARK_TIME_DROPPED) say(*instance, RG_LOG_WARNING, kLogTimeDropped, "a stall was longer than time.catch_up_s: simulated time was left out");
+    return result;
+  });
+}
+
+rg_result stepGpu(rg_instance* instance) {
+  return guarded(instance, [](Frame& frame) { frame.stepGpu(); });
+}
+
+rg_result prepareCaptures(rg_instance* instance, const rg_capture_info* in) {
+  return guarded(instance, [&](Frame& frame) {
+    const rg_capture_info info = readStruct(in, "rg_capture_info");
+    const ViewState view = readView(info.view);
+    checkRange(info.max_faces, 0.0, 6.0, "rg_capture_info.max_faces");
+    glass::DrawScene draw;
+    if (info.draw_scene != nullptr) {
+      draw = [&info](uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld, const glm::dmat4& clipFromEye) {
+        double eye[16], projection[16];
+        std::memcpy(eye, &eyeFromWorld[0][0], sizeof eye);
+        std::memcpy(projection, &clipFromEye[0][0], sizeof projection);
+        info.draw_scene(info.user, framebuffer, size_px, size_px, eye, projection);
+      };
+    }
+    frame.prepareCaptures(view, static_cast<int>(info.max_faces), draw);
+  });
+}
+
+void readLamps(const rg_lighting& in, DrawRequest& out) {
+  checkArray(in.lamps, in.lamp_count, sizeof(rg_lamp), sizeof(rg_lamp), kMostLamps, "rg_lighting.lamps");
+  for (uint32_t i = 0; i < in.lamp_count; ++i) {
+    const rg_lamp& lamp = in.lamps[i];
+    rain::DropLamp l;
+    l.position_m = finiteVector(lamp.position_m, "rg_lamp.position_m");
+    for (int k = 0; k < 3; ++k) {
+      checkRange(static_cast<double>(lamp.direction[k]), -1.001, 1.001, "rg_lamp.direction");
+      l.direction[k] = lamp.direction[k];
+    }
+    l.intensity = radiance(lamp.intensity, "rg_lamp.intensity");
+    checkRange(static_cast<double>(lamp.cos_inner), -1.0, 1.0, "rg_lamp.cos_inner");
+    checkRange(static_cast<double>(lamp.cos_outer), -1.0, 1.0, "rg_lamp.cos_outer");
+    l.cos_inner = lamp.cos_inner;
+    l.cos_outer = lamp.cos_outer;
+    out.lamps.push_back(l);
+  }
+}
+
+void readLighting(const rg_lighting* in, DrawRequest& out) {
+  rg_lighting light;
+  defaultLighting(&light);
+  if (in != nullptr) light = readStruct(in, "rg_lighting");
+  out.lighting.sky_radiance = radiance(light.sky_radiance, "rg_lighting.sky_radiance");
+  out.lighting.ground_radiance = radiance(light.ground_radiance, "rg_lighting.ground_radiance");
+  out.lighting.sun_irradiance = radiance(light.sun_irradiance, "rg_lighting.sun_irradiance");
+  for (int i = 0; i < 3; ++i) {
+    checkRange(static_cast<double>(light.sun_direction[i]), -1.001, 1.001, "rg_lighting.sun_direction");
+    out.lighting.sun_direction[i] = light.sun_direction[i];
+  }
+  out.lighting.environment_cube = light.environment_cube;
+  readLamps(light, out);
+}
+
+void readTarget(const rg_target* in, DrawRequest& out) {
+  const rg_target t = readStruct(in, "rg_target");
+  if (t.width_px < 1 || t.height_px < 1 || t.width_px > 32768 || t.height_px > 32768) refuse("rg_target size must be 1 .. 32768 pixels a side");
+  if (t.samples != 1) refuse("rg_target.samples: this build draws into single-sampled targets", RG_ERROR_MISSING_FEATURE);
+  if (t.layer != 0) refuse("rg_target.layer: this build draws into layer 0", RG_ERROR_MISSING_FEATURE);
+  if (t.color_space != RG_LINEAR_HDR && t.color_space != RG_SRGB) refuse("rg_target.color_space is no rg_color_space");
+  checkRange(t.exposure, 1e-9, 1e9, "rg_target.exposure");
+  out.target = {t.framebuffer, t.color_texture, t.width_px, t.height_px, t.color_space == RG_SRGB, static_cast<float>(t.exposure)};
+  out.depth_texture = t.depth_texture;
+}
+
+using DrawStage = uint32_t (Frame::*)(const DrawRequest&);
+
+rg_result draw(rg_instance* instance, rg_draw* in, DrawStage stage) {
+  return guarded(instance, [&](Frame& frame) {
+    const rg_draw d = readStruct(in, "rg_draw");
+    DrawRequest request;
+    request.time_ns = d.time_ns;
+    request.view = readView(d.view);
+    std::memcpy(&request.viewport_px[0], d.view->viewport_px, sizeof d.view->viewport_px);
+    readTarget(d.target, request);
+    readLighting(d.lighting, request);
+    in->touched = (frame.*stage)(request);
+  });
+}
+
+rg_result drawWorld(rg_instance* instance, rg_draw* in) { return draw(instance, in, &Frame::drawWorld); }
+rg_result drawGlass(rg_instance* instance, rg_draw* in) { return draw(instance, in, &Frame::drawGlass); }
+rg_result drawFinish(rg_instance* instance, rg_draw* in) { return draw(instance, in, &Frame::drawFinish); }
+
+// ---- time ----
+
+rg_result reset(rg_instance* instance) {
+  return guarded(instance, [](Frame& frame) { frame.reset(); });
+}
+
+rg_result seek(rg_instance* instance, int64_t time_ns) {
+  return guarded(instance, [&](Frame& frame) { frame.seek(time_ns); });
+}
+
+rg_result prewarm(rg_instance* instance, double seconds) {
+  return guarded(instance, [&](Frame& frame) {
+    checkRange(seconds, 0.0, 600.0, "prewarm's seconds");
+    frame.prewarm(seconds);
+  });
+}
+
+rg_result rebaseOrigin(rg_instance* instance, const double shift_m[3]) {
+  return guarded(instance, [&](Frame& frame) {
+    if (shift_m == nullptr) refuse("rebase_origin's shift is null");
+    for (int i = 0; i < 3; ++i) checkRange(shift_m[i], -1e8, 1e8, "rebase_origin's shift");
+    frame.rebase({shift_m[0], shift_m[1], shift_m[2]});
+  });
+}
+
+rg_result save(rg_instance* instance, void*, size_t*) {
+  return guarded(instance, [](Frame&) { refuse("this build does not save its state", RG_ERROR_MISSING_FEATURE); });
+}
+
+rg_result restore(rg_instance* instance, const void*, size_t) {
+  return guarded(instance, [](Frame&) { refuse("this build does not restore a state", RG_ERROR_MISSING_FEATURE); });
+}
+
+// ---- questions ----
+
+rg_result getRainStats(rg_instance* instance, rg_rain_stats* out) {
+  return guarded(instance, [&](Frame& frame) {
+    const rain::FieldStats s = frame.rainStats();
+    rg_rain_stats r{};
+    r.rate_mm_h = s.rate_mm_h;
+    r.thinning = s.thinning;
+    r.live = s.live;
+    r.born = s.born;
+    r.died = s.died;
+    r.sheltered_at_birth = s.sheltered_at_birth;
+    r.shelter_tests = s.shelter_tests;
+    r.uploaded_bytes = s.uploaded_bytes;
+    writeStruct(out, r, "rg_rain_stats");
+  });
+}
+
+rg_result getPaneStats(rg_instance* instance, uint32_t pane, rg_pane_stats* out) {
+  return guarded(instance, [&](Frame& frame) {
+    constexpr double kMl = 1e-9;  // mL in a picolitre
+    const glass::PaneStats s = frame.paneStats(pane);
+    rg_pane_stats r{};
+    r.drops = s.drops;
+    r.area_m2 = s.area_m2;
+    r.caught_ml = static_cast<double>(s.caught_pl) * kMl;
+    r.on_glass_ml = static_cast<double>(s.on_glass_pl) * kMl;
+    r.drained_ml = static_cast<double>(s.drained_pl) * kMl;
+    r.wiped_ml = static_cast<double>(s.wiped_pl) * kMl;
+    r.blown_ml = static_cast<double>(s.blown_pl) * kMl;
+    r.evaporated_ml = static_cast<double>(s.evaporated_pl) * kMl;
+    r.film_ml = static_cast<double>(s.film_pl) * kMl;
+    r.drops_ml = static_cast<double>(s.drops_pl) * kMl;
+    r.ridge_ml = static_cast<double>(s.ridge_pl) * kMl;
+    const double found_ml = r.on_glass_ml + r.drained_ml + r.wiped_ml + r.blown_ml + r.evaporated_ml;
+    r.ledger_error = std::abs(r.caught_ml - found_ml) / std::max(r.caught_ml, 1.0);
+    writeStruct(out, r, "rg_pane_stats");
+  });
+}
+
+rg_result getStageCount(rg_instance* instance, uint32_t* out) {
+  return guarded(instance, [&](Frame& frame) { *checkOut(out, "out") = static_cast<uint32_t>(frame.timers().stageCount()); });
+}
+
+rg_result getStage(rg_instance* instance, uint32_t index, rg_stage_stats* out) {
+  return guarded(instance, [&](Frame& frame) {
+    if (index >= frame.timers().stageCount()) refuse("there is no stage " + std::to_string(index), RG_ERROR_NOT_FOUND);
+    const gl::StageTimes t = frame.timers().times(index);
+    rg_stage_stats r{};
+    r.gpu = t.gpu ? 1 : 0;
+    std::strncpy(r.name, t.name.c_str(), sizeof r.name - 1);
+    r.cpu_ms_p50 = t.cpu_ms.p50;
+    r.cpu_ms_p95 = t.cpu_ms.p95;
+    r.cpu_ms_p99 = t.cpu_ms.p99;
+    r.gpu_ms_p50 = t.gpu_ms.p50;
+    r.gpu_ms_p95 = t.gpu_ms.p95;
+    r.gpu_ms_p99 = t.gpu_ms.p99;
+    r.samples = t.samples;
+    writeStruct(out, r, "rg_stage_stats");
+  });
+}
+
+rg_result getTimerKind(rg_instance* instance, int32_t* out) {
+  return guarded(instance, [&](Frame& frame) {
+    *checkOut(out, "out") = frame.timers().kind() == gl::TimerKind::kGpu ? RG_TIMER_GPU : RG_TIMER_FINISH;
+  });
+}
+
+rg_result getHash(rg_instance* instance, int32_t kind, uint64_t* out) {
+  return guarded(instance, [&](Frame& frame) {
+    if (kind != RG_HASH_RAIN && kind != RG_HASH_STATE) refuse("kind is no rg_hash_kind");
+    checkOut(out, "out");
+    *out = frame.hash(kind == RG_HASH_STATE);
+  });
+}
+
+// ---- parameters ----
+
+rg_result getParameterCount(rg_instance* instance, uint32_t* out) {
+  return guarded(instance, [&](Frame&) { *checkOut(out, "out") = static_cast<uint32_t>(std::size(kSettings)); });
+}
+
+void copyText(const char* from, char* to, size_t size) {
+  std::strncpy(to, from, size - 1);
+  to[size - 1] = '\0';
+}
+
+rg_result getParameter(rg_instance* instance, uint32_t index, rg_parameter* out) {
+  return guarded(instance, [&](Frame& frame) {
+    if (index >= std::size(kSettings)) refuse("there is no parameter " + std::to_string(index), RG_ERROR_NOT_FOUND);
+    const SettingInfo& info = kSettings[index];
+    rg_parameter p{};
+    copyText(info.name, p.name, sizeof p.name);
+    copyText(info.unit, p.unit, sizeof p.unit);
+    copyText(info.group, p.group, sizeof p.group);
+    copyText(info.text, p.text, sizeof p.text);
+    p.minimum = info.minimum;
+    p.maximum = info.maximum;
+    p.preset = Settings{}.*info.value;
+    p.value = frame.settings().*info.value;
+    writeStruct(out, p, "rg_parameter");
+  });
+}
+
+rg_result setParameter(rg_instance* instance, const char* name, double value) {
+  return guarded(instance, [&](Frame& frame) {
+    if (name == nullptr) refuse("set_parameter's name is null");
+    for (const SettingInfo& info : kSettings) {
+      if (std::strcmp(info.name, name) != 0) continue;
+      checkRange(value, info.minimum, info.maximum, name);
+      frame.set(info.value, value);
+      return;
+    }
+    refuse("there is no parameter \"" + std::string(name, strnlen(name, 63)) + "\"", RG_ERROR_NOT_FOUND);
+  });
+}
+
+constexpr rg_api kApi = {
+    sizeof(rg_api), RG_ABI_MINOR, RG_VERSION,
+    defaultCreateInfo, defaultGlInfo, defaultVehicle, defaultWeather, defaultView, defaultSample, defaultVolumeInfo, defaultPaneInfo,
+    defaultWiperInfo, defaultTarget, defaultLighting, defaultDraw, defaultCaptureInfo,
+    create, destroy, lastError,
+    attachGl, detachGl, contextLost,
+    setVolume, removeVolume, removeVehicle, setPane, removePane, setWiper, removeWiper, placeDrops,
+    update, stepGpu, prepareCaptures, drawWorld, drawGlass, drawFinish,
+    reset, seek, prewarm, rebaseOrigin, save, restore,
+    getRainStats, getPaneStats, getStageCount, getStage, getTimerKind, getHash,
+    getParameterCount, getParameter, setParameter,
+};
+
+}  // namespace
+}  // namespace rg
+
+extern "C" const rg_api* rgTable(uint32_t abi_major);
+const rg_api* rgTable(uint32_t abi_major) { return abi_major == RG_ABI_MAJOR ? &rg::kApi : nullptr; }

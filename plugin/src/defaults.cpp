@@ -1,0 +1,96 @@
+#include "defaults.h"
+
+namespace rg {
+namespace {
+
+template <typename T>
+void clear(T* out) {
+  *out = T{};
+  out->struct_size = sizeof(T);
+}
+
+void identity(double m[16]) {
+  for (int i = 0; i < 16; ++i) m[i] = i % 5 == 0 ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+void defaultCreateInfo(rg_create_info* out) {
+  clear(out);
+  out->max_drops = 65536;
+  out->seed = 1;
+}
+
+void defaultGlInfo(rg_gl_info* out) { clear(out); }
+
+void defaultVehicle(rg_vehicle* out) {
+  clear(out);
+  out->pose.orientation[3] = 1.0;
+}
+
+void defaultWeather(rg_weather* out) {
+  clear(out);
+  out->temperature_c = 12.0;
+  out->humidity = 0.9;
+  out->visibility_m = 40000.0;
+}
+
+void defaultView(rg_view* out) {
+  clear(out);
+  out->id = 1;
+  identity(out->eye_from_world);
+  identity(out->projection);
+  out->exposure_s = 1.0 / 60.0;
+}
+
+void defaultSample(rg_sample* out) {
+  clear(out);
+  out->vehicle_stride = sizeof(rg_vehicle);
+  out->view_stride = sizeof(rg_view);
+}
+
+void defaultVolumeInfo(rg_volume_info* out) {
+  clear(out);
+  out->active = 1;
+}
+
+void defaultPaneInfo(rg_pane_info* out) {
+  clear(out);
+  out->active = 1;
+  out->glass = RG_GLASS_UNCOATED;
+  out->texel_m = 3e-3;
+  out->max_drops = 20000;
+  out->film_enabled = 1;
+}
+
+void defaultWiperInfo(rg_wiper_info* out) {
+  clear(out);
+  out->axis[2] = 1.0;
+  out->rest_direction[0] = 1.0;
+  out->arm_m = 0.5;
+  out->blade_m = 0.6;
+  out->residual_film_m = 1e-7;
+}
+
+void defaultTarget(rg_target* out) {
+  clear(out);
+  out->samples = 1;
+  out->exposure = 1.0;
+}
+
+void defaultLighting(rg_lighting* out) {
+  clear(out);
+  for (int i = 0; i < 3; ++i) {
+    out->sky_radiance[i] = 1.0f;
+    out->ground_radiance[i] = 0.2f;
+  }
+}
+
+void defaultDraw(rg_draw* out) { clear(out); }
+
+void defaultCaptureInfo(rg_capture_info* out) {
+  clear(out);
+  out->max_faces = 1;
+}
+
+}  // namespace rg

@@ -1,0 +1,226 @@
+#include "frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame_gl.h"
+#include "glass/pane_map.h"
+
+namespace rg {
+namespace {
+
+// The tick at or before a time: ticks run once their moment has come.
+int64_t tickAt(int64_t time_ns) {
+  int64_t tick = time_ns / 1'000'000'000 * kTickHz + time_ns % 1'000'000'000 * kTickHz / 1'000'000'000;
+  while (tickTimeNs(tick) > time_ns) --tick;
+  while (tickTimeNs(tick + 1) <= time_ns) ++tick;
+  return tick;
+}
+
+}  // namespace
+
+Frame::Frame(const rg_create_info& info)
+    : field_({info.max_drops, info.seed}), seed_(info.seed), capacity_(info.max_drops) {
+  stage_.rain_tick = timers_.add("rain_tick", false);
+  stage_.glass_tick = timers_.add("glass_tick", false);
+  stage_.rain_upload = timers_.add("rain_upload", true);
+  stage_.glass_step = timers_.add("glass_step", true);
+  stage_.captures = timers_.add("captures", true);
+  stage_.rain_draw = timers_.add("rain_draw", true);
+  stage_.glass_draw = timers_.add("glass_draw", true);
+  stage_.finish = timers_.add("finish", true);
+}
+
+// An instance that is still attached has no context to free its GL objects in.
+Frame::~Frame() {
+  if (gl_) gl_->forget();
+}
+
+// ---- objects ----
+
+void Frame::setVolume(uint32_t id, const rain::VolumeInfo& info) {
+  const std::lock_guard lock(sim_);
+  const std::string wrong = field_.setVolume(id, info);
+  if (!wrong.empty()) refuse(wrong);
+  volumes_[id] = info.vehicle;
+}
+
+void Frame::removeVolume(uint32_t id) {
+  const std::lock_guard lock(sim_);
+  if (!field_.removeVolume(id)) refuse("there is no volume " + std::to_string(id), RG_ERROR_NOT_FOUND);
+  volumes_.erase(id);
+}
+
+void Frame::removeVehicle(uint32_t id) {
+  const std::lock_guard lock(sim_);
+  field_.removeVehicle(id);
+  std::erase_if(volumes_, [id](const auto& v) { return v.second == id; });
+  std::erase_if(wipers_, [&](const auto& w) { return panes_.contains(w.second.pane) && panes_.at(w.second.pane).vehicle == id; });
+  std::erase_if(panes_, [id](const auto& p) { return p.second.vehicle == id; });
+  timeline_.removeVehicle(id);
+}
+
+void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::PaneInfo& info) {
+  auto sim = std::make_shared<glass::PaneSim>(info, id, seed_);
+  const std::lock_guard lock(sim_);
+  std::erase_if(wipers_, [id](const auto& w) { return w.second.pane == id; });
+  PaneObject object;
+  object.vehicle = vehicle;
+  object.active = active;
+  object.sim = std::move(sim);
+  panes_[id] = std::move(object);
+}
+
+PaneObject& Frame::pane(uint32_t id) {
+  const auto found = panes_.find(id);
+  if (found == panes_.end()) refuse("there is no pane " + std::to_string(id), RG_ERROR_NOT_FOUND);
+  return found->second;
+}
+
+void Frame::removePane(uint32_t id) {
+  const std::lock_guard lock(sim_);
+  pane(id);
+  std::erase_if(wipers_, [id](const auto& w) { return w.second.pane == id; });
+  panes_.erase(id);
+}
+
+void Frame::setWiper(uint32_t id, uint32_t pane_id, const glass::WiperInfo& info) {
+  const std::lock_guard lock(sim_);
+  PaneObject& on = pane(pane_id);
+  const auto known = wipers_.find(id);
+  if (known != wipers_.end() && known->second.pane != pane_id && panes_.contains(known->second.pane)) {
+    panes_.at(known->second.pane).sim->removeWiper(id);
+  }
+  on.sim->setWiper(id, info);
+  wipers_[id] = {pane_id};
+}
+
+void Frame::removeWiper(uint32_t id) {
+  const std::lock_guard lock(sim_);
+  const auto found = wipers_.find(id);
+  if (found == wipers_.end()) refuse("there is no wiper " + std::to_string(id), RG_ERROR_NOT_FOUND);
+  pane(found->second.pane).sim->removeWiper(id);
+  wipers_.erase(found);
+  timeline_.removeWiper(id);
+}
+
+void Frame::placeDrops(uint32_t id, std::span<const glass::PlacedDrop> drops) {
+  const std::lock_guard lock(sim_);
+  pane(id).sim->placeDrops(drops);
+}
+
+// ---- time ----
+
+rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
+  const std::lock_guard lock(sim_);
+  int64_t after_ns = timeline_.empty() ? INT64_MIN : timeline_.last().time_ns;
+  for (const Sample& s : samples) {
+    if (s.time_ns <= after_ns) refuse("rg_sample.time_ns does not ascend", RG_ERROR_WRONG_ORDER);
+    if (s.time_ns > time_ns) refuse("rg_sample.time_ns is after the update's time", RG_ERROR_WRONG_ORDER);
+    after_ns = s.time_ns;
+  }
+  if (started_ && time_ns < tickTimeNs(next_tick_ - 1)) refuse("update's time runs backwards; seek() first", RG_ERROR_WRONG_ORDER);
+  for (const Sample& s : samples) timeline_.add(s);
+  if (timeline_.empty()) refuse("the first update needs a sample", RG_ERROR_WRONG_ORDER);
+
+  const int64_t last = tickAt(time_ns);
+  if (!started_) {
+    next_tick_ = std::min(tickAt(timeline_.first().time_ns), last);
+    for (int64_t i = next_tick_ - prewarm_ticks_; i < next_tick_; ++i) runTick(i, true);
+    started_ = true;
+  }
+  const auto most = static_cast<int64_t>(settings_.time_catch_up_s * static_cast<double>(kTickHz));
+  const int64_t dropped = std::max<int64_t>(0, last - next_tick_ + 1 - most);
+  next_tick_ += dropped;
+  for (; next_tick_ <= last; ++next_tick_) runTick(next_tick_, false);
+  timeline_.prune(next_tick_ - 1);
+  field_.publish(upload_);
+  return dropped > 0 ? RG_REMARK_TIME_DROPPED : field_.stats().thinning < 1.0 ? RG_REMARK_THINNED : RG_OK;
+}
+
+void Frame::runTick(int64_t index, bool rain_only) {
+  const Tick& tick = timeline_.tick(index);
+  {
+    const gl::ScopedStage timed(timers_, stage_.rain_tick);
+    field_.setVisibility({settings_.rain_visibility_factor, settings_.rain_reference_px});
+    field_.tick(tick);
+  }
+  if (rain_only) return;
+  const gl::ScopedStage timed(timers_, stage_.glass_tick);
+  tickGlass(tick);
+}
+
+void Frame::reset() {
+  const std::lock_guard lock(sim_);
+  timeline_.clear();
+  field_.reset();
+  for (auto& [id, p] : panes_) {
+    p.sim->reset();
+    p.tick = 0;
+  }
+  started_ = false;
+  prewarm_ticks_ = 0;
+  field_.publishAll(upload_);
+}
+
+void Frame::seek(int64_t time_ns) {
+  const std::lock_guard lock(sim_);
+  if (timeline_.empty()) refuse("seek before the first update", RG_ERROR_WRONG_ORDER);
+  Sample here = timeline_.last();
+  here.time_ns = time_ns;
+  here.wiper_knots.clear();
+  timeline_.clear();
+  timeline_.add(here);
+  next_tick_ = tickAt(time_ns);
+  field_.seek(next_tick_);
+}
+
+void Frame::prewarm(double seconds) {
+  const std::lock_guard lock(sim_);
+  if (started_) refuse("prewarm after the first update", RG_ERROR_WRONG_ORDER);
+  prewarm_ticks_ = static_cast<int64_t>(std::ceil(seconds * static_cast<double>(kTickHz)));
+}
+
+void Frame::rebase(const glm::dvec3& shift_m) {
+  const std::lock_guard lock(sim_);
+  timeline_.rebase(shift_m);
+  field_.rebase(shift_m);
+  field_.publish(upload_);
+}
+
+// ---- questions ----
+
+rain::FieldStats Frame::rainStats() {
+  const std::lock_guard lock(sim_);
+  return field_.stats();
+}
+
+glass::PaneStats Frame::paneStats(uint32_t id) {
+  const std::lock_guard lock(sim_);
+  PaneObject& p = pane(id);
+  if (gl_) gl_->finish(id, p);
+  return p.sim->stats();
+}
+
+uint64_t Frame::hash(bool with_glass) {
+  const std::lock_guard lock(sim_);
+  uint64_t h = field_.hash();
+  if (!with_glass) return h;
+  for (auto& [id, p] : panes_) {
+    const uint64_t film = gl_ ? gl_->filmHash(id, p) : 0;
+    for (const uint64_t part : {uint64_t{id}, p.sim->hash(), film}) h = (h ^ part) * UINT64_C(0x100000001b3);  // FNV-1a's prime
+  }
+  return h;
+}
+
+Settings Frame::settings() const {
+  const std::lock_guard lock(sim_);
+  return settings_;
+}
+
+void Frame::set(double Settings::*value, double to) {
+  const std::lock_guard lock(sim_);
+  settings_.*value = to;
+}
+
+}  // namespace rg

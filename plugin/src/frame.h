@@ -1,0 +1,129 @@
+// An instance of the plugin: the host's objects, and the order of a frame as named, timed stages. Functions throw ApiError.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "error.h"
+#include "gl/loader.h"
+#include "gl/timers.h"
+#include "glass/look_gl.h"
+#include "glass/pane.h"
+#include "glass/pane_gl.h"
+#include "rain/field.h"
+#include "rain/rain_gl.h"
+#include "settings.h"
+#include "timeline.h"
+
+namespace rg {
+
+// A pane with both its halves.
+struct PaneObject {
+  uint32_t vehicle = 0;
+  bool active = true;
+  std::shared_ptr<glass::PaneSim> sim;
+  std::array<float, glass::kRegions> wet_share{};
+  int64_t tick = 0;  // the pane's own count: it has no gaps where time was left out
+};
+
+struct WiperObject {
+  uint32_t pane = 0;
+};
+
+// A picture asked for, read from the ABI and checked.
+struct DrawRequest {
+  int64_t time_ns = 0;
+  ViewState view;
+  glm::ivec4 viewport_px{0};
+  glass::LookTarget target;
+  uint32_t depth_texture = 0;
+  rain::RainLighting lighting;
+  std::vector<rain::DropLamp> lamps;
+};
+
+class Frame {
+ public:
+  explicit Frame(const rg_create_info& info);
+  ~Frame();
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+
+  std::string last_error;
+
+  // Objects.
+  void setVolume(uint32_t id, const rain::VolumeInfo& info);
+  void removeVolume(uint32_t id);
+  void removeVehicle(uint32_t id);
+  void setPane(uint32_t id, uint32_t vehicle, bool active, const glass::PaneInfo& info);
+  void removePane(uint32_t id);
+  void setWiper(uint32_t id, uint32_t pane, const glass::WiperInfo& info);
+  void removeWiper(uint32_t id);
+  void placeDrops(uint32_t pane, std::span<const glass::PlacedDrop> drops);
+
+  // Time. update returns a remark or RG_OK.
+  rg_result update(int64_t time_ns, const std::vector<Sample>& samples);
+  const Sample* lastSample() const { return timeline_.empty() ? nullptr : &timeline_.last(); }
+  void reset();
+  void seek(int64_t time_ns);
+  void prewarm(double seconds);
+  void rebase(const glm::dvec3& shift_m);
+
+  // GL thread.
+  void attach(const rg_gl_info& info);
+  void detach();
+  void contextLost();
+  void stepGpu();
+  uint32_t prepareCaptures(const ViewState& view, int max_faces, const glass::DrawScene& draw);
+  uint32_t drawWorld(const DrawRequest& request);
+  uint32_t drawGlass(const DrawRequest& request);
+  uint32_t drawFinish(const DrawRequest& request);
+
+  // Questions.
+  rain::FieldStats rainStats();
+  double rainRate();
+  glass::PaneStats paneStats(uint32_t pane);
+  uint64_t hash(bool with_glass);
+  const gl::Timers& timers() const { return timers_; }
+  Settings settings() const;
+  void set(double Settings::*value, double to);
+
+ private:
+  struct Gl;
+
+  void runTick(int64_t index, bool rain_only);
+  void tickGlass(const Tick& tick);
+  void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick);
+  PaneObject& pane(uint32_t id);
+  Gl& attached();
+  void syncPanes(Gl& gl);
+  uint32_t touch() const;
+
+  mutable std::mutex sim_;  // of all below; held by update throughout, by the GL thread for moments
+  Timeline timeline_;
+  rain::Field field_;
+  rain::Upload upload_;
+  std::map<uint32_t, PaneObject> panes_;
+  std::map<uint32_t, WiperObject> wipers_;
+  std::map<uint32_t, uint32_t> volumes_;  // id -> vehicle
+  Settings settings_;
+  uint64_t seed_;
+  uint32_t capacity_;
+  bool started_ = false;
+  int64_t next_tick_ = 0;
+  int64_t prewarm_ticks_ = 0;
+  std::array<glass::SizeClass, glass::kMaxSizeClasses> classes_{};
+  uint32_t class_count_ = 0;
+  double classes_rate_mm_h_ = -1.0;
+
+  gl::Timers timers_;
+  struct Stages {
+    gl::Timers::Stage rain_tick, glass_tick, rain_upload, glass_step, captures, rain_draw, glass_draw, finish;
+  } stage_;
+  std::unique_ptr<Gl> gl_;
+};
+
+}  // namespace rg

@@ -1,0 +1,215 @@
+#include "frame_gl.h"
+
+#include "rain/picture.h"
+
+namespace rg {
+namespace {
+
+// What stepping and drawing touch; the host's framebuffer is only needed for drawing.
+constexpr uint32_t kStepTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_BUFFERS | RG_TOUCHED_TEXTURES | RG_TOUCHED_IMAGES | RG_TOUCHED_PIXEL_STORE;
+// A cabin is a dark room by day: share of the light from outside that the glass shows from within (unsourced).
+constexpr float kCabinLight = 0.05f;
+constexpr uint32_t kDrawTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_TOUCHED_BUFFERS | RG_TOUCHED_TEXTURES | RG_TOUCHED_FRAMEBUFFER |
+                                  RG_TOUCHED_VIEWPORT | RG_TOUCHED_BLEND | RG_TOUCHED_DEPTH | RG_TOUCHED_RASTER | RG_TOUCHED_PIXEL_STORE;
+
+glm::dmat4 worldFromVehicle(const Pose& pose) {
+  glm::dmat4 m = glm::mat4_cast(pose.orientation);
+  m[3] = glm::dvec4(pose.position_m, 1.0);
+  return m;
+}
+
+glass::LookPane lookPane(const glass::PaneDrawn& d, const Pose& vehicle, int64_t time_ns, int64_t drops_ns) {
+  glass::LookPane p;
+  p.worldFromVehicle = worldFromVehicle(vehicle);
+  p.vertex_buffer = d.vertex_buffer;
+  p.index_buffer = d.index_buffer;
+  p.index_count = d.index_count;
+  p.centre_m = d.centre_m;
+  p.radius_m = d.radius_m;
+  p.film_size = d.film_size;
+  p.texel_m = d.texel_m;
+  p.position = d.position;
+  p.metric = d.metric;
+  p.frame = d.frame;
+  p.film = d.film;
+  p.film_unit_m3 = d.film_unit_m3;
+  p.drop_buffer = d.drop_buffer;
+  p.drop_count = d.drop_count;
+  p.drop_age_s = static_cast<float>(static_cast<double>(time_ns - drops_ns) * 1e-9);
+  return p;
+}
+
+}  // namespace
+
+Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
+    : context(gl::loadContext(info.get_proc, info.get_proc_user)), host_resets_state(info.host_resets_state != 0) {
+  const gl::StateGuard guarded = guard(kDrawTouches | kStepTouches);
+  rain = std::make_unique<rain::RainRenderer>(*context, capacity);
+  film_programs = glass::makeFilmPrograms(context->gl);
+  look = std::make_unique<glass::GlassLook>(context->gl);
+  gl::throwOnError(context->gl, "attach_gl");
+}
+
+void Frame::Gl::finish(uint32_t id, PaneObject& pane) {
+  const auto half = panes.find(id);
+  if (half == panes.end() || half->second.sim != pane.sim) return;
+  const gl::StateGuard guarded = guard(kStepTouches);
+  half->second.gl->finish();
+}
+
+uint64_t Frame::Gl::filmHash(uint32_t id, PaneObject& pane) {
+  const auto half = panes.find(id);
+  if (half == panes.end() || half->second.sim != pane.sim) return 0;
+  const gl::StateGuard guarded = guard(kStepTouches);
+  return half->second.gl->hash();
+}
+
+void Frame::Gl::forget() {
+  rain->forget();
+  look->abandon();
+  for (auto& [id, half] : panes) half.gl->abandon();
+  glass::abandonFilmPrograms(*film_programs);
+}
+
+Frame::Gl& Frame::attached() {
+  if (!gl_) refuse("attach_gl first", RG_ERROR_WRONG_ORDER);
+  return *gl_;
+}
+
+void Frame::attach(const rg_gl_info& info) {
+  const std::lock_guard lock(sim_);
+  if (gl_) refuse("the instance is attached already; detach_gl first", RG_ERROR_WRONG_ORDER);
+  auto made = std::make_unique<Gl>(info, capacity_);
+  timers_.attach(*made->context, info.force_finish_timer != 0);
+  field_.publishAll(upload_);
+  gl_ = std::move(made);
+}
+
+void Frame::detach() {
+  Gl& gl = attached();
+  const std::lock_guard lock(sim_);
+  {
+    const gl::StateGuard guarded = gl.guard(kStepTouches | kDrawTouches);
+    timers_.detach();
+    gl.panes.clear();
+    gl.rain.reset();
+    gl.look.reset();
+    gl.film_programs.reset();
+  }
+  gl_.reset();
+}
+
+void Frame::contextLost() {
+  Gl& gl = attached();
+  const std::lock_guard lock(sim_);
+  timers_.forget();
+  gl.forget();
+  gl_.reset();
+}
+
+// Panes are made by the CPU's side at any time; their GL half follows here, where the context is current.
+void Frame::syncPanes(Gl& gl) {
+  std::erase_if(gl.panes, [this](const auto& half) {
+    const auto found = panes_.find(half.first);
+    return found == panes_.end() || found->second.sim != half.second.sim;
+  });
+  for (auto& [id, p] : panes_) {
+    if (gl.panes.contains(id)) continue;
+    gl.panes[id] = {p.sim, std::make_unique<glass::PaneGl>(gl.context->gl, gl.film_programs, p.sim)};
+  }
+}
+
+void Frame::stepGpu() {
+  Gl& gl = attached();
+  const gl::StateGuard guarded = gl.guard(kStepTouches);
+  timers_.collect();
+  {
+    const gl::ScopedStage timed(timers_, stage_.rain_upload);
+    const std::lock_guard lock(sim_);
+    gl.rain->upload(upload_);
+  }
+  const gl::ScopedStage timed(timers_, stage_.glass_step);
+  {
+    const std::lock_guard lock(sim_);
+    syncPanes(gl);
+  }
+  for (auto& [id, half] : gl.panes) half.gl->step();
+  gl::throwOnError(gl.context->gl, "step_gpu");
+}
+
+uint32_t Frame::prepareCaptures(const ViewState& view, int max_faces, const glass::DrawScene& draw) {
+  Gl& gl = attached();
+  gl::StateGuard guarded = gl.guard(kDrawTouches);
+  const gl::ScopedStage timed(timers_, stage_.captures);
+  gl.look->settings.capture_size_px = static_cast<int>(settings().glass_capture_px);
+  if (draw) gl.look->capture(view.eyeFromWorld, max_faces, draw);
+  else gl.look->dropCapture();
+  gl::throwOnError(gl.context->gl, "prepare_captures");
+  return guarded.touched();
+}
+
+uint32_t Frame::drawWorld(const DrawRequest& request) {
+  Gl& gl = attached();
+  gl::StateGuard guarded = gl.guard(kDrawTouches);
+  gl::requireDrawable(*gl.context, request.target.framebuffer);
+  guarded.drawInto(request.target.framebuffer);
+  const gl::ScopedStage timed(timers_, stage_.rain_draw);
+  rain::RainDraw draw;
+  draw.view = &request.view;
+  draw.viewport_px = request.viewport_px;
+  draw.time_ns = request.time_ns;
+  draw.target = {request.target.framebuffer, request.target.color_texture, request.depth_texture, request.target.width_px,
+                 request.target.height_px, request.target.srgb, request.target.exposure};
+  draw.lighting = request.lighting;
+  draw.lighting.lamps = request.lamps;
+  draw.gain = static_cast<float>(settings().rain_gain);
+  for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i) gl.rain->draw(draw);
+  gl::throwOnError(gl.context->gl, "draw_world");
+  return guarded.touched();
+}
+
+uint32_t Frame::drawGlass(const DrawRequest& request) {
+  Gl& gl = attached();
+  gl::StateGuard guarded = gl.guard(kDrawTouches);
+  gl::requireDrawable(*gl.context, request.target.framebuffer);
+  guarded.drawInto(request.target.framebuffer);
+  if (request.target.color_texture == 0) guarded.readFrom(request.target.framebuffer);
+  const gl::ScopedStage timed(timers_, stage_.glass_draw);
+  std::vector<glass::LookPane> seen;
+  {
+    const std::lock_guard lock(sim_);
+    for (auto& [id, half] : gl.panes) {
+      const auto object = panes_.find(id);
+      if (object == panes_.end() || !object->second.active) continue;
+      const auto vehicle = timeline_.vehicleAt(object->second.vehicle, request.time_ns);
+      if (!vehicle) continue;
+      const glass::PaneDrawn drawn = half.gl->drawn();
+      // The pane's own count of ticks has no gaps; the world's tick it stands for is so far behind the newest.
+      const int64_t world_tick = next_tick_ - 1 - (object->second.tick - drawn.drop_tick);
+      seen.push_back(lookPane(drawn, vehicle->pose, request.time_ns, tickTimeNs(world_tick)));
+    }
+    gl.look->settings.brightness = static_cast<float>(settings_.glass_brightness);
+    gl.look->settings.blur = static_cast<float>(settings_.glass_blur);
+    gl.look->settings.internal_reflections = static_cast<int>(settings_.glass_internal_reflections);
+  }
+  const glass::LookView view{request.view.eyeFromWorld, request.view.clipFromEye, request.viewport_px, request.view.clip_zero_to_one,
+                             request.view.reversed_depth};
+  glass::LookLight light;
+  light.environment_cube = request.lighting.environment_cube;
+  light.sky_radiance = request.lighting.sky_radiance;
+  light.ground_radiance = request.lighting.ground_radiance;
+  light.cabin_share = request.view.vehicle != 0 ? kCabinLight : 1.0f;
+  for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i) gl.look->drawPanes(seen, view, request.target, light);
+  gl::throwOnError(gl.context->gl, "draw_glass");
+  return guarded.touched();
+}
+
+// Nothing is drawn over the whole picture yet; the call checks that it could be.
+uint32_t Frame::drawFinish(const DrawRequest& request) {
+  Gl& gl = attached();
+  const gl::ScopedStage timed(timers_, stage_.finish);
+  gl::requireDrawable(*gl.context, request.target.framebuffer);
+  return 0;
+}
+
+}  // namespace rg
