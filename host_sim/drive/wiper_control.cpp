@@ -1,0 +1,63 @@
+#include "drive/wiper_control.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "drive/ticks.h"
+
+namespace host {
+
+WiperMode wiperModeFrom(std::string_view text) {
+  if (text == "off" || text == "0") return WiperMode::off;
+  if (text == "intermittent") return WiperMode::intermittent;
+  if (text == "1") return WiperMode::slow;
+  if (text == "2") return WiperMode::fast;
+  throw std::invalid_argument("wiper mode \"" + std::string(text) + "\" is none of off, intermittent, 1, 2");
+}
+
+const char* wiperModeName(WiperMode mode) {
+  switch (mode) {
+    case WiperMode::off: return "off";
+    case WiperMode::intermittent: return "intermittent";
+    case WiperMode::slow: return "1";
+    case WiperMode::fast: return "2";
+  }
+  return "off";
+}
+
+bool WiperMotor::starts() const {
+  if (once_ || wanted_ == WiperMode::slow || wanted_ == WiperMode::fast) return true;
+  return wanted_ == WiperMode::intermittent && pause_s_ <= 0.0;
+}
+
+// A crank turns at a constant rate, so the blade goes as a cosine and stands for a moment at its reversals.
+const std::vector<WiperKnotShare>& WiperMotor::tick() {
+  knots_.clear();
+  if (!running_) {
+    pause_s_ -= kHostTickSeconds;
+    if (starts()) {
+      running_ = true;
+      phase_ = 0.0;
+      cycle_s_ = 60.0 / (wanted_ == WiperMode::fast ? kFastCycles_per_min : kSlowCycles_per_min);
+      once_ = false;
+    }
+  }
+  if (running_) {
+    const double before = phase_;
+    phase_ += kHostTickSeconds / cycle_s_;
+    if (before < 0.5 && phase_ >= 0.5) knots_.push_back({(0.5 - before) * cycle_s_, 1.0});
+    if (phase_ >= 1.0) {
+      knots_.push_back({(1.0 - before) * cycle_s_, 0.0});
+      running_ = false;
+      pause_s_ = wanted_ == WiperMode::intermittent ? kIntermittentPause_s : 0.0;
+      phase_ = 0.0;
+    }
+    share_ = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * phase_));
+  }
+  knots_.push_back({kHostTickSeconds, share_});
+  return knots_;
+}
+
+}  // namespace host

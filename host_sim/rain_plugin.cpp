@@ -1,0 +1,296 @@
+#include "rain_plugin.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace host {
+namespace {
+
+void log(void*, int32_t level, uint32_t message, const char* text) {
+  if (level <= RG_LOG_WARNING) std::fprintf(stderr, "rainglass %u: %s\n", message, text);
+}
+
+std::filesystem::path besideThisProgram() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  return program.parent_path() / "librainglass.so";
+}
+
+void copyVector(const glm::dvec3& from, double to[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+void copyVector(const glm::vec3& from, float to[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+}  // namespace
+
+RainPlugin::RainPlugin(const std::filesystem::path& library, uint64_t seed) {
+  const std::filesystem::path file = library.empty() ? besideThisProgram() : library;
+  library_ = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library_ == nullptr) throw PluginError(std::string("the plugin cannot be loaded: ") + dlerror());
+  const auto entry = reinterpret_cast<const rg_api* (*)(uint32_t)>(dlsym(library_, "rg_get_entry"));
+  if (entry == nullptr) throw PluginError(file.string() + " has no rg_get_entry");
+  api_ = entry(RG_ABI_MAJOR);
+  if (api_ == nullptr) throw PluginError(file.string() + " does not speak this ABI");
+  rg_create_info info;
+  api_->default_create_info(&info);
+  info.seed = seed;
+  info.log = log;
+  const rg_result result = api_->create(&info, &instance_);
+  if (result < 0) throw PluginError(std::string("create: ") + api_->last_error(nullptr));
+}
+
+RainPlugin::~RainPlugin() {
+  if (instance_ != nullptr) {
+    if (attached_) api_->detach_gl(instance_);
+    api_->destroy(instance_);
+  }
+  if (library_ != nullptr) dlclose(library_);
+}
+
+void RainPlugin::check(rg_result result, const char* call) {
+  if (result < 0) throw PluginError(std::string(call) + ": " + api_->last_error(instance_));
+}
+
+void RainPlugin::attach(Context& context) {
+  rg_gl_info info;
+  api_->default_gl_info(&info);
+  info.get_proc = Context::getProc;
+  info.get_proc_user = &context;
+  check(api_->attach_gl(instance_, &info), "attach_gl");
+  attached_ = true;
+}
+
+void RainPlugin::addVolume(uint32_t id, uint32_t vehicle, const ShelterView& shelter) {
+  std::vector<double> points;
+  for (const glm::vec3& p : shelter.points_m) points.insert(points.end(), {p.x, p.y, p.z});
+  rg_volume_info info;
+  api_->default_volume_info(&info);
+  info.vehicle = vehicle;
+  info.name = shelter.name.c_str();
+  info.vertices_m = points.data();
+  info.vertex_count = static_cast<uint32_t>(shelter.points_m.size());
+  check(api_->set_volume(instance_, id, &info), "set_volume");
+}
+
+void RainPlugin::addRoad(const RoadView& road) {
+  for (const ShelterView& s : road.shelters) addVolume(++volumes_, 0, s);
+}
+
+void RainPlugin::addCar(const CarView& car) {
+  for (const ShelterView& s : car.shelters) addVolume(++volumes_, kCarId, s);
+  for (const PaneView& p : car.panes) {
+    rg_pane_info info;
+    api_->default_pane_info(&info);
+    info.vehicle = kCarId;
+    info.name = p.name.c_str();
+    info.positions_m = &p.positions_m.data()->x;
+    info.uvs = &p.uv.data()->x;
+    info.indices = p.indices.data();
+    info.vertex_count = static_cast<uint32_t>(p.positions_m.size());
+    info.index_count = static_cast<uint32_t>(p.indices.size());
+    info.glass = static_cast<int32_t>(p.glass);
+    panes_.push_back(p.name);
+    check(api_->set_pane(instance_, static_cast<uint32_t>(panes_.size()), &info), "set_pane");
+  }
+  for (size_t i = 0; i < car.wipers.size(); ++i) {
+    const WiperView& w = car.wipers[i];
+    rg_wiper_info info;
+    api_->default_wiper_info(&info);
+    info.pane = static_cast<uint32_t>(w.pane_index + 1);
+    info.name = w.name.c_str();
+    copyVector(glm::dvec3(w.pivot_m), info.pivot_m);
+    copyVector(glm::normalize(glm::dvec3(w.axis)), info.axis);
+    copyVector(glm::normalize(glm::dvec3(w.rest_direction)), info.rest_direction);
+    info.arm_m = static_cast<double>(w.arm_m);
+    info.blade_m = static_cast<double>(w.blade_m);
+    info.blade_angle_rad = static_cast<double>(w.blade_angle_rad);
+    check(api_->set_wiper(instance_, static_cast<uint32_t>(i + 1), &info), "set_wiper");
+  }
+}
+
+void RainPlugin::setParameter(const std::string& name, double value) {
+  check(api_->set_parameter(instance_, name.c_str(), value), ("parameter " + name).c_str());
+}
+
+void RainPlugin::prewarm(double seconds) { check(api_->prewarm(instance_, seconds), "prewarm"); }
+
+void RainPlugin::update(int64_t time_ns) {
+  std::vector<rg_vehicle> vehicles;
+  vehicles.reserve(waiting_.size());
+  std::vector<rg_sample> samples;
+  for (Moment& m : waiting_) {
+    vehicles.push_back(pluginVehicle(*api_, m.car));
+    rg_sample s;
+    api_->default_sample(&s);
+    s.time_ns = m.time_ns;
+    s.weather = &m.weather;
+    s.vehicles = &vehicles.back();
+    s.vehicle_count = 1;
+    s.vehicle_stride = sizeof(rg_vehicle);
+    s.views = &m.view;
+    s.view_count = 1;
+    s.view_stride = sizeof(rg_view);
+    s.wiper_knots = m.knots.data();
+    s.wiper_knot_count = static_cast<uint32_t>(m.knots.size());
+    samples.push_back(s);
+  }
+  check(api_->update(instance_, time_ns, samples.data(), static_cast<uint32_t>(samples.size()), sizeof(rg_sample)), "update");
+  waiting_.clear();
+}
+
+void RainPlugin::stepGpu() { check(api_->step_gpu(instance_), "step_gpu"); }
+
+void RainPlugin::capture(Renderer& renderer, const rg_view& view, int max_faces) {
+  rg_capture_info info;
+  api_->default_capture_info(&info);
+  info.max_faces = static_cast<uint32_t>(max_faces);
+  info.view = &view;
+  info.user = &renderer;
+  info.draw_scene = [](void* user, uint32_t framebuffer, int32_t width, int32_t height, const double eye[16], const double projection[16]) {
+    glm::dmat4 eye_from_world, clip;
+    std::memcpy(&eye_from_world[0][0], eye, sizeof eye_from_world);
+    std::memcpy(&clip[0][0], projection, sizeof clip);
+    static_cast<Renderer*>(user)->drawScene(framebuffer, {width, height}, eye_from_world, clip);
+  };
+  check(api_->prepare_captures(instance_, &info), "prepare_captures");
+}
+
+void RainPlugin::draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+  rg_target t;
+  api_->default_target(&t);
+  t.framebuffer = target.framebuffer();
+  t.color_texture = target.colour();
+  t.depth_texture = target.depth();
+  t.width_px = target.sizePx().x;
+  t.height_px = target.sizePx().y;
+  rg_lighting l;
+  api_->default_lighting(&l);
+  copyVector(light.sky_radiance, l.sky_radiance);
+  copyVector(light.ground_radiance, l.ground_radiance);
+  copyVector(light.to_sun, l.sun_direction);
+  copyVector(light.sun_irradiance, l.sun_irradiance);
+  l.environment_cube = light.environment_cube;
+  std::vector<rg_lamp> lamps;
+  for (const LampNow& lamp : light.lamps) {
+    rg_lamp out{};
+    copyVector(lamp.position_m, out.position_m);
+    copyVector(lamp.direction, out.direction);
+    copyVector(lamp.intensity, out.intensity);
+    out.cos_inner = lamp.cos_inner;
+    out.cos_outer = lamp.cos_outer;
+    lamps.push_back(out);
+  }
+  l.lamps = lamps.data();
+  l.lamp_count = static_cast<uint32_t>(lamps.size());
+  rg_draw d;
+  api_->default_draw(&d);
+  d.time_ns = time_ns;
+  d.view = &view;
+  d.target = &t;
+  d.lighting = &l;
+  check(call(instance_, &d), name);
+}
+
+void RainPlugin::drawWorld(int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+  draw(api_->draw_world, "draw_world", time_ns, view, target, light);
+}
+
+void RainPlugin::drawGlass(int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+  draw(api_->draw_glass, "draw_glass", time_ns, view, target, light);
+}
+
+void RainPlugin::drawFinish(int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+  draw(api_->draw_finish, "draw_finish", time_ns, view, target, light);
+}
+
+rg_rain_stats RainPlugin::rainStats() {
+  rg_rain_stats stats{};
+  stats.struct_size = sizeof stats;
+  check(api_->get_rain_stats(instance_, &stats), "get_rain_stats");
+  return stats;
+}
+
+std::vector<std::pair<std::string, rg_pane_stats>> RainPlugin::paneStats() {
+  std::vector<std::pair<std::string, rg_pane_stats>> all;
+  for (size_t i = 0; i < panes_.size(); ++i) {
+    rg_pane_stats stats{};
+    stats.struct_size = sizeof stats;
+    check(api_->get_pane_stats(instance_, static_cast<uint32_t>(i + 1), &stats), "get_pane_stats");
+    all.emplace_back(panes_[i], stats);
+  }
+  return all;
+}
+
+std::vector<rg_stage_stats> RainPlugin::stages() {
+  uint32_t count = 0;
+  check(api_->get_stage_count(instance_, &count), "get_stage_count");
+  std::vector<rg_stage_stats> all(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    all[i].struct_size = sizeof all[i];
+    check(api_->get_stage(instance_, i, &all[i]), "get_stage");
+  }
+  return all;
+}
+
+std::vector<rg_parameter> RainPlugin::parameters() {
+  uint32_t count = 0;
+  check(api_->get_parameter_count(instance_, &count), "get_parameter_count");
+  std::vector<rg_parameter> all(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    all[i].struct_size = sizeof all[i];
+    check(api_->get_parameter(instance_, i, &all[i]), "get_parameter");
+  }
+  return all;
+}
+
+bool RainPlugin::gpuTimer() {
+  int32_t kind = 0;
+  check(api_->get_timer_kind(instance_, &kind), "get_timer_kind");
+  return kind == RG_TIMER_GPU;
+}
+
+uint64_t RainPlugin::hash(rg_hash_kind kind) {
+  uint64_t value = 0;
+  check(api_->get_hash(instance_, kind, &value), "get_hash");
+  return value;
+}
+
+void RainPlugin::placeDrops(uint32_t pane, std::span<const rg_glass_drop> drops) {
+  check(api_->place_drops(instance_, pane, drops.data(), static_cast<uint32_t>(drops.size())), "place_drops");
+}
+
+rg_view pluginView(const rg_api& api, const View& view, glm::ivec2 size_px, glm::dvec3 eye_velocity_mps, uint32_t vehicle) {
+  rg_view v;
+  api.default_view(&v);
+  v.id = kViewId;
+  v.viewport_px[2] = size_px.x;
+  v.viewport_px[3] = size_px.y;
+  std::memcpy(v.eye_from_world, &view.eye_from_world[0][0], sizeof v.eye_from_world);
+  std::memcpy(v.projection, &view.projection[0][0], sizeof v.projection);
+  v.clip_zero_to_one = 1;
+  v.reversed_depth = 1;
+  v.vehicle = vehicle;
+  copyVector(eye_velocity_mps, v.eye_velocity_mps);
+  return v;
+}
+
+rg_vehicle pluginVehicle(const rg_api& api, const CarState& car) {
+  rg_vehicle v;
+  api.default_vehicle(&v);
+  v.id = kCarId;
+  copyVector(car.position_m, v.pose.position_m);
+  copyVector(car.velocity_mps, v.pose.velocity_mps);
+  copyVector(car.angular_velocity_radps, v.pose.angular_velocity_radps);
+  v.pose.orientation[0] = car.orientation.x;
+  v.pose.orientation[1] = car.orientation.y;
+  v.pose.orientation[2] = car.orientation.z;
+  v.pose.orientation[3] = car.orientation.w;
+  return v;
+}
+
+}  // namespace host

@@ -1,0 +1,72 @@
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "budget.h"
+#include "image/png.h"
+#include "image/video.h"
+#include "report.h"
+#include "run.h"
+#include "schedule.h"
+#include "stage.h"
+
+namespace host {
+namespace {
+
+constexpr uint64_t kFramesPerReference = 8;
+
+void makeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error)) throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
+}
+
+void showProgress(double time_s, double seconds, uint64_t frames, double wall_s) {
+  if (isatty(2) == 0) return;
+  const double left_s = time_s > 0.0 ? wall_s / time_s * (seconds - time_s) : 0.0;
+  std::fprintf(stderr, "\r%6.1f of %.1f s, %llu pictures, %.0f s to go   ", time_s, seconds, static_cast<unsigned long long>(frames), left_s);
+}
+
+}  // namespace
+
+int runHeadless(const Options& options) {
+  const Scenario scenario = chosenScenario(options);
+  makeFolder(options.out);
+  const auto context = makeHeadlessContext();
+  Stage stage(options, scenario, *context);
+  const Budget budget = options.budget.empty() ? Budget{} : loadBudget(options.budget, scenario.name, stage.plugin().gpuTimer());
+  const Target target(*context, options.size_px);
+  const Picture picture(*context, options.size_px);
+  std::unique_ptr<Video> video;
+  if (!options.video.empty()) video = std::make_unique<Video>(options.video, options.size_px.x, options.size_px.y, options.fps);
+  ReferencePass reference(*context, options.size_px);
+
+  const auto begin = std::chrono::steady_clock::now();
+  const auto wall_s = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  Report report;
+  stage.prewarm();
+  for (const Event& e : schedule(options, scenario.seconds)) {
+    if (e.update) stage.update(e.time_ns);
+    if (!e.draw) continue;
+    const bool single = !e.shot.empty() && options.video.empty();
+    stage.draw(e.time_ns, target, picture.framebuffer(), single ? 6 : 1);
+    ++report.frames;
+    if (!budget.empty() && report.frames % kFramesPerReference == 1) reference.run();
+    if (!e.shot.empty()) writePng(options.out / e.shot, picture.read(), options.size_px.x, options.size_px.y);
+    if (video) video->add(picture.read());
+    showProgress(static_cast<double>(e.time_ns) * 1e-9, scenario.seconds, report.frames, wall_s());
+  }
+  if (isatty(2) != 0) std::fprintf(stderr, "\n");
+  if (video) video->finish();
+  report.size_px = options.size_px;
+  report.simulated_s = scenario.seconds;
+  report.wall_s = wall_s();
+  stage.fillReport(report);
+  writeReport(options.out / "report.json", report);
+  if (!budget.empty() && !keepsBudget(budget, report.stages, report.gpu_timer, reference.medianMs())) return 4;
+  return 0;
+}
+
+}  // namespace host

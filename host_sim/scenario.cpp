@@ -1,0 +1,233 @@
+#include "scenario.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <toml++/toml.h>
+
+namespace host {
+namespace {
+
+constexpr double kKmh = 1.0 / 3.6;
+
+// Reads a table key by key; finish() refuses what nobody asked for.
+class Reader {
+ public:
+  Reader(const toml::table* table, std::string where) : table_(table), where_(std::move(where)) {}
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw InputError(where_ + key + ": " + why); }
+
+  double number(const char* key, double preset, double least, double most) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return preset;
+    const auto value = node->value<double>();
+    if (!value) refuse(key, "must be a number");
+    return checked(key, *value, least, most);
+  }
+  std::string text(const char* key, const std::string& preset) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return preset;
+    const auto value = node->value<std::string>();
+    if (!value) refuse(key, "must be a string");
+    return *value;
+  }
+  bool flag(const char* key, bool preset) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return preset;
+    const auto value = node->value<bool>();
+    if (!value) refuse(key, "must be true or false");
+    return *value;
+  }
+  // A number, or [[at, value], ...] ascending in `at`.
+  Curve curve(const char* key, double preset, double least, double most, double unit = 1.0) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return Curve(preset);
+    if (node->is_number()) return Curve(checked(key, *node->value<double>(), least, most) * unit);
+    std::vector<CurvePoint> points;
+    for (const auto& [at, value] : pairs(key, *node)) {
+      const auto v = value->value<double>();
+      if (!v) refuse(key, "has a value that is not a number");
+      points.push_back({at, checked(key, *v, least, most) * unit});
+    }
+    return Curve(points);
+  }
+  std::vector<std::pair<double, const toml::node*>> pairs(const char* key, const toml::node& node) const {
+    const toml::array* list = node.as_array();
+    if (list == nullptr || list->empty()) refuse(key, "must be a value or a list of [at, value]");
+    std::vector<std::pair<double, const toml::node*>> result;
+    for (const toml::node& item : *list) {
+      const toml::array* pair = item.as_array();
+      if (pair == nullptr || pair->size() != 2 || !pair->get(0)->is_number()) refuse(key, "must be a list of [at, value]");
+      const double at = *pair->get(0)->value<double>();
+      if (!std::isfinite(at) || (!result.empty() && at <= result.back().first)) refuse(key, "must ascend");
+      result.emplace_back(at, pair->get(1));
+    }
+    return result;
+  }
+  const toml::node* find(const char* key) {
+    asked_.insert(key);
+    return table_ == nullptr ? nullptr : table_->get(key);
+  }
+  Reader section(const char* key) {
+    const toml::node* node = find(key);
+    if (node != nullptr && !node->is_table()) refuse(key, "must be a table");
+    return Reader(node == nullptr ? nullptr : node->as_table(), where_ + key + ".");
+  }
+  const toml::table* table() const { return table_; }
+  void finish() const {
+    if (table_ == nullptr) return;
+    for (const auto& [key, value] : *table_) {
+      if (!asked_.contains(std::string(key.str()))) refuse(std::string(key.str()), "is not a key of a scenario");
+    }
+  }
+
+ private:
+  double checked(const char* key, double value, double least, double most) const {
+    if (value >= least && value <= most) return value;
+    std::ostringstream why;
+    why << "is " << value << ", must be " << least << " .. " << most;
+    refuse(key, why.str());
+  }
+
+  const toml::table* table_;
+  std::string where_;
+  std::set<std::string, std::less<>> asked_;
+};
+
+void readDrive(Reader drive, DrivePlan& plan) {
+  plan.start_m = drive.number("start_m", 0.0, 0.0, 1e6);
+  plan.speed_mps = drive.curve("speed_kmh", 0.0, 0.0, 210.0, kKmh);
+  if (const toml::node* stops = drive.find("stops")) {
+    for (const auto& [at, seconds] : drive.pairs("stops", *stops)) {
+      const auto value = seconds->value<double>();
+      if (!value || !(*value >= 0.0 && *value <= 3600.0)) drive.refuse("stops", "must be a list of [way in m, seconds]");
+      plan.stops.push_back({at, *value});
+    }
+  }
+  drive.finish();
+}
+
+void readWeather(Reader weather, Scenario& s) {
+  s.rain_mm_h = weather.curve("rain_mm_h", 0.0, 0.0, 300.0);
+  s.wind_x_mps = weather.curve("wind_x_mps", 0.0, -100.0, 100.0);
+  s.wind_y_mps = weather.curve("wind_y_mps", 0.0, -100.0, 100.0);
+  s.temperature_c = weather.curve("temperature_c", 12.0, -60.0, 60.0);
+  s.humidity = weather.curve("humidity", 0.9, 0.0, 1.0);
+  s.visibility_m = weather.curve("visibility_m", 20000.0, 10.0, 1e6);
+  s.sun_elevation_deg = weather.number("sun_elevation_deg", 35.0, -20.0, 90.0);
+  s.sun_azimuth_deg = weather.number("sun_azimuth_deg", 140.0, -360.0, 360.0);
+  weather.finish();
+}
+
+void readWipers(Reader& top, Scenario& s) {
+  const toml::node* node = top.find("wipers");
+  if (node == nullptr) return;
+  const auto mode = [&](const toml::node& value) {
+    const auto text = value.value<std::string>();
+    try {
+      return wiperModeFrom(text ? *text : value.is_integer() ? std::to_string(*value.value<int64_t>()) : "");
+    } catch (const std::invalid_argument& e) {
+      top.refuse("wipers", e.what());
+    }
+  };
+  if (!node->is_array()) s.wipers = {{0.0, mode(*node)}};
+  else
+    for (const auto& [at, value] : top.pairs("wipers", *node)) s.wipers.push_back({at, mode(*value)});
+}
+
+void readParameters(Reader& top, Scenario& s) {
+  const Reader section = top.section("plugin");
+  if (section.table() == nullptr) return;
+  const auto walk = [&](auto&& self, const toml::table& table, const std::string& prefix) -> void {
+    for (const auto& [key, value] : table) {
+      const std::string name = prefix + std::string(key.str());
+      const toml::node& node = value;
+      if (node.is_table()) self(self, *node.as_table(), name + ".");
+      else if (const auto number = node.value<double>()) s.parameters.emplace_back(name, *number);
+      else section.refuse(name, "must be a number");
+    }
+  };
+  walk(walk, *section.table(), "");
+}
+
+std::filesystem::path modelPath(const std::string& text, const std::filesystem::path& root) {
+  if (text.empty()) return {};
+  const std::filesystem::path path(text);
+  return path.is_absolute() ? path : root / path;
+}
+
+toml::table parseFile(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such scenario file");
+  try {
+    return toml::parse_file(file.string());
+  } catch (const toml::parse_error& e) {
+    std::ostringstream line;
+    line << file.string() << ":" << e.source().begin.line << ": " << e.description();
+    throw InputError(line.str());
+  }
+}
+
+// "weather.rain_mm_h=20" changes that key, making tables on the way.
+void applyChange(toml::table& top, const std::string& change) {
+  const auto equals = change.find('=');
+  if (equals == std::string::npos || equals == 0) throw InputError("--set " + change + ": must be path.to.key=value");
+  const std::string path = change.substr(0, equals), value = change.substr(equals + 1);
+  toml::table parsed;
+  try {
+    parsed = toml::parse("v = " + value);
+  } catch (const toml::parse_error&) {
+    parsed.insert_or_assign("v", value);
+  }
+  toml::table* table = &top;
+  size_t begin = 0;
+  for (size_t dot = path.find('.'); dot != std::string::npos; begin = dot + 1, dot = path.find('.', begin)) {
+    const std::string key = path.substr(begin, dot - begin);
+    if (key.empty()) throw InputError("--set " + change + ": has an empty key");
+    if (!table->contains(key)) table->insert(key, toml::table{});
+    table = table->get(key)->as_table();
+    if (table == nullptr) throw InputError("--set " + change + ": " + key + " is not a table");
+  }
+  if (begin >= path.size()) throw InputError("--set " + change + ": has an empty key");
+  parsed.get("v")->visit([&](auto& node) { table->insert_or_assign(path.substr(begin), std::move(node)); });
+}
+
+}  // namespace
+
+Scenario loadScenario(const std::string& name_or_file, const std::vector<std::string>& changes, const std::filesystem::path& root) {
+  const bool is_file = name_or_file.ends_with(".toml") || name_or_file.find('/') != std::string::npos;
+  const std::filesystem::path file = is_file ? std::filesystem::path(name_or_file) : root / "scenarios" / (name_or_file + ".toml");
+  toml::table table = parseFile(file);
+  for (const std::string& change : changes) applyChange(table, change);
+
+  Reader top(&table, file.string() + ": ");
+  Scenario s;
+  s.name = file.stem().string();
+  s.title = top.text("title", s.name);
+  s.seconds = top.number("seconds", 60.0, 0.0, 36000.0);
+  s.prewarm_s = top.number("prewarm_s", 0.0, 0.0, 600.0);
+  s.seed = static_cast<uint64_t>(top.number("seed", 1.0, 0.0, 9e15));
+  s.camera = top.text("camera", "cockpit");
+  if (std::ranges::find(kCameras, s.camera) == std::end(kCameras)) top.refuse("camera", "\"" + s.camera + "\" is none of cockpit, outside, front, side, free");
+  s.headlights = top.flag("headlights", true);
+  Reader models = top.section("models");
+  s.car = modelPath(models.text("car", "models/car.glb"), root);
+  s.road = modelPath(models.text("road", "models/road.glb"), root);
+  models.finish();
+  readDrive(top.section("drive"), s.plan);
+  readWeather(top.section("weather"), s);
+  readWipers(top, s);
+  readParameters(top, s);
+  top.finish();
+  return s;
+}
+
+WiperMode wiperModeAt(const Scenario& scenario, double time_s) {
+  WiperMode mode = WiperMode::off;
+  for (const WiperSwitch& w : scenario.wipers) {
+    if (time_s >= w.at_s) mode = w.mode;
+  }
+  return mode;
+}
+
+}  // namespace host

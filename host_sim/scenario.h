@@ -1,0 +1,54 @@
+// What is driven: a TOML file, with changes from the command line, checked and turned into curves.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "drive/curve.h"
+#include "drive/driver.h"
+#include "drive/wiper_control.h"
+
+namespace host {
+
+// The user's input is wrong; what() is one line that names it. main() ends with exit code 2.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct WiperSwitch {
+  double at_s = 0.0;
+  WiperMode mode = WiperMode::off;
+};
+
+struct Scenario {
+  std::string name;
+  std::string title;
+  double seconds = 60.0;
+  double prewarm_s = 0.0;  // rain and water on the glass that long before the first picture, standing at the start
+  uint64_t seed = 1;
+  std::filesystem::path car, road;  // empty: none
+  DrivePlan plan;
+  Curve rain_mm_h{0.0};
+  Curve wind_x_mps{0.0}, wind_y_mps{0.0};
+  Curve temperature_c{12.0}, humidity{0.9};
+  Curve visibility_m{20000.0};
+  double sun_elevation_deg = 35.0;
+  double sun_azimuth_deg = 140.0;
+  std::vector<WiperSwitch> wipers;
+  std::string camera = "cockpit";
+  bool headlights = true;
+  std::vector<std::pair<std::string, double>> parameters;  // the plugin's, by name
+};
+
+inline constexpr const char* kCameras[] = {"cockpit", "outside", "front", "side", "free"};
+
+// NAME (scenarios/NAME.toml below `root`) or FILE; `changes` are "path.to.key=value" with TOML values (bare words are taken as strings).
+Scenario loadScenario(const std::string& name_or_file, const std::vector<std::string>& changes, const std::filesystem::path& root);
+
+WiperMode wiperModeAt(const Scenario& scenario, double time_s);
+
+}  // namespace host

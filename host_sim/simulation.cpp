@@ -1,0 +1,159 @@
+#include "simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "drive/ticks.h"
+
+namespace host {
+namespace {
+
+constexpr double kAdaptation_s = 0.6;        // a driver's eye over the first decades (unsourced)
+constexpr int64_t kAdaptationTicks = 12;     // ten times a second
+constexpr double kRoadDries_mm_per_s = 0.2 / 3600.0;  // on a mild day with traffic (unsourced)
+constexpr double kMostOnRoad_mm = 1.0;       // the rest runs off
+constexpr double kChaseBehind_m = 6.5, kChaseUp_m = 2.3;
+
+std::vector<glm::dvec3> routePoints(const RoadView& road) {
+  if (!road.route) return {glm::dvec3(0.0), glm::dvec3(10000.0, 0.0, 0.0)};
+  return {road.route->points_m.begin(), road.route->points_m.end()};
+}
+
+glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up) {
+  return glm::lookAt(eye, eye + forward, up);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin, glm::ivec2 size_px)
+    : camera(scenario.camera),
+      scenario_(scenario),
+      car_(car),
+      plugin_(plugin),
+      size_px_(size_px),
+      route_(routePoints(road), road.route && road.route->closed),
+      driver_(route_, scenario.plan),
+      prewarm_ns_(static_cast<int64_t>(std::ceil(scenario.prewarm_s)) * 1'000'000'000) {
+  // As if it had rained for ten minutes as it does at the start.
+  water_on_road_mm_ = std::min(kMostOnRoad_mm, scenario.rain_mm_h.at(0.0) / 6.0);
+  free_camera.position_m = driver_.state().position_m + glm::dvec3(-8.0, 3.0, 2.5);
+}
+
+double Simulation::timeS() const { return static_cast<double>(hostTickNs(std::max<int64_t>(tick_, 0)) - prewarm_ns_) * 1e-9; }
+
+Weather Simulation::weather() const {
+  const double t = std::max(0.0, timeS());
+  Weather w;
+  w.rain_mm_h = overrides.rain_mm_h.value_or(scenario_.rain_mm_h.at(t));
+  w.wind_mps = overrides.wind_mps.value_or(glm::dvec3(scenario_.wind_x_mps.at(t), scenario_.wind_y_mps.at(t), 0.0));
+  w.temperature_c = scenario_.temperature_c.at(t);
+  w.humidity = scenario_.humidity.at(t);
+  w.visibility_m = scenario_.visibility_m.at(t);
+  return w;
+}
+
+void Simulation::advance(int64_t time_ns) {
+  const int64_t until_ns = pluginTime(time_ns);
+  if (tick_ < 0) {
+    tick_ = 0;
+    tell();
+  }
+  while (hostTickNs(tick_ + 1) <= until_ns) tick();
+}
+
+void Simulation::tick() {
+  ++tick_;
+  const double t = timeS();
+  if (t > 0.0) {
+    if (overrides.controls) driver_.tick(*overrides.controls);
+    else driver_.tick();
+  }
+  motor_.setMode(overrides.wipers.value_or(wiperModeAt(scenario_, std::max(0.0, t))));
+  const int64_t begin_ns = hostTickNs(tick_ - 1);
+  for (const WiperKnotShare& knot : motor_.tick()) {
+    const int64_t at_ns = std::min(begin_ns + static_cast<int64_t>(knot.seconds_into_tick * 1e9), hostTickNs(tick_));
+    for (size_t i = 0; i < car_.wipers.size(); ++i) {
+      knots_.push_back({at_ns, static_cast<uint32_t>(i + 1), 0, knot.share * static_cast<double>(car_.wipers[i].sweep_rad)});
+    }
+  }
+  const double rain_mm = weather().rain_mm_h / 3600.0 * kHostTickSeconds;
+  water_on_road_mm_ = std::clamp(water_on_road_mm_ + rain_mm - kRoadDries_mm_per_s * kHostTickSeconds, 0.0, kMostOnRoad_mm);
+  if (adapting_luminance && tick_ % kAdaptationTicks == 0) {
+    const double target = std::log(std::max(1e-4, adapting_luminance(eyeOf(driver_.state()).position_m)));
+    const double share = adapted_ ? 1.0 - std::exp(-kHostTickSeconds * kAdaptationTicks / kAdaptation_s) : 1.0;
+    log_luminance_ += (target - log_luminance_) * share;
+    adapted_ = true;
+  }
+  tell();
+}
+
+void Simulation::tell() {
+  Moment m;
+  m.time_ns = hostTickNs(tick_);
+  m.car = driver_.state();
+  if (timeS() <= 0.0) m.car.velocity_mps = m.car.angular_velocity_radps = glm::dvec3(0.0);
+  const Weather w = weather();
+  plugin_.api().default_weather(&m.weather);
+  m.weather.rain_mm_h = w.rain_mm_h;
+  for (int i = 0; i < 3; ++i) m.weather.wind_mps[i] = w.wind_mps[i];
+  m.weather.temperature_c = w.temperature_c;
+  m.weather.humidity = w.humidity;
+  m.weather.visibility_m = w.visibility_m;
+  m.view = viewOf(m.car);
+  m.view.discontinuity = cut_ || camera != camera_before_ ? 1 : 0;
+  camera_before_ = camera;
+  cut_ = false;
+  m.knots = std::move(knots_);
+  knots_.clear();
+  plugin_.tell(std::move(m));
+}
+
+CarState Simulation::carAt(int64_t time_ns) const {
+  const double since_s = static_cast<double>(pluginTime(time_ns) - hostTickNs(std::max<int64_t>(tick_, 0))) * 1e-9;
+  CarState car = driver_.at(timeS() <= 0.0 ? 0.0 : since_s);
+  if (timeS() <= 0.0) car.velocity_mps = car.angular_velocity_radps = glm::dvec3(0.0);
+  return car;
+}
+
+Eye Simulation::eyeAt(int64_t time_ns) const { return eyeOf(carAt(time_ns)); }
+rg_view Simulation::pluginViewAt(int64_t time_ns) const { return viewOf(carAt(time_ns)); }
+
+Eye Simulation::eyeOf(const CarState& car) const {
+  Eye eye;
+  double fov_rad = 1.05;
+  const auto toWorld = [&](const glm::dvec3& v) { return car.position_m + car.orientation * v; };
+  glm::dvec3 forward, up = car.orientation * glm::dvec3(0.0, 0.0, 1.0);
+  if (camera == "cockpit") {
+    const double pitch = static_cast<double>(car_.eye.pitch_rad);
+    eye.position_m = toWorld(glm::dvec3(car_.eye.position_m));
+    forward = car.orientation * glm::dvec3(std::cos(pitch), 0.0, std::sin(pitch));
+    fov_rad = static_cast<double>(car_.eye.fov_rad);
+    eye.inside = true;
+  } else if (camera == "free") {
+    eye.position_m = free_camera.position_m;
+    forward = {std::cos(free_camera.yaw_rad) * std::cos(free_camera.pitch_rad), std::sin(free_camera.yaw_rad) * std::cos(free_camera.pitch_rad),
+               std::sin(free_camera.pitch_rad)};
+    up = {0.0, 0.0, 1.0};
+  } else {
+    // Seen from around the car, level with the horizon: at it from behind, the front, the left side.
+    const glm::dvec3 place = camera == "front" ? glm::dvec3(6.0, 1.3, 1.7) : camera == "side" ? glm::dvec3(1.2, 4.5, 1.5) : glm::dvec3(-kChaseBehind_m, 0.0, kChaseUp_m);
+    const glm::dvec3 at = camera == "outside" ? glm::dvec3(3.0, 0.0, 1.1) : glm::dvec3(1.4, 0.0, 0.85);
+    const glm::dvec3 heading = car.orientation * glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dquat level = glm::angleAxis(std::atan2(heading.y, heading.x), glm::dvec3(0.0, 0.0, 1.0));
+    eye.position_m = car.position_m + level * place;
+    forward = glm::normalize(car.position_m + level * at - eye.position_m);
+    up = {0.0, 0.0, 1.0};
+  }
+  eye.velocity_mps = camera == "free" ? glm::dvec3(0.0) : car.velocity_mps + glm::cross(car.angular_velocity_radps, eye.position_m - car.position_m);
+  eye.view.eye_from_world = lookAlong(eye.position_m, forward, up);
+  eye.view.projection = reversedPerspective(fov_rad, size_px_);
+  return eye;
+}
+
+rg_view Simulation::viewOf(const CarState& car) const {
+  const Eye eye = eyeOf(car);
+  return pluginView(plugin_.api(), eye.view, size_px_, eye.velocity_mps, eye.inside ? kCarId : 0);
+}
+
+}  // namespace host

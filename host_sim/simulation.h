@@ -1,0 +1,99 @@
+// The host's world in motion: car, wipers, weather and eye at fixed ticks, told to the plugin. No drawing here.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "drive/driver.h"
+#include "drive/route.h"
+#include "drive/wiper_control.h"
+#include "rain_plugin.h"
+#include "render/renderer.h"
+#include "scenario.h"
+#include "scene/views.h"
+
+namespace host {
+
+// An eye in the world.
+struct Eye {
+  View view;
+  glm::dvec3 position_m{0.0};
+  glm::dvec3 velocity_mps{0.0};
+  bool inside = false;
+  bool cut = false;
+};
+
+// A camera moved by a person.
+struct FreeCamera {
+  glm::dvec3 position_m{0.0};
+  double yaw_rad = 0.0, pitch_rad = 0.0;
+};
+
+struct Weather {
+  double rain_mm_h = 0.0;
+  glm::dvec3 wind_mps{0.0};
+  double temperature_c = 12.0, humidity = 0.9, visibility_m = 20000.0;
+};
+
+// What a person changed in the window; the scenario's own value where there is none.
+struct Overrides {
+  std::optional<double> rain_mm_h;
+  std::optional<glm::dvec3> wind_mps;
+  std::optional<WiperMode> wipers;
+  std::optional<Controls> controls;
+};
+
+class Simulation {
+ public:
+  Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin, glm::ivec2 size_px);
+
+  // Luminance the eye adapts to, for a place; asked ten times a simulated second.
+  std::function<double(glm::dvec3)> adapting_luminance;
+  Overrides overrides;
+  std::string camera;
+  FreeCamera free_camera;
+
+  // Runs the host's ticks up to a moment, told to the plugin at its next update. The first call also runs the scenario's prewarm.
+  void advance(int64_t time_ns);
+  // As the scenario's clock says, from 0 at the first picture; the plugin's clock is ahead of it by the prewarm.
+  int64_t pluginTime(int64_t time_ns) const { return time_ns + prewarm_ns_; }
+
+  CarState carAt(int64_t time_ns) const;
+  Eye eyeAt(int64_t time_ns) const;
+  rg_view pluginViewAt(int64_t time_ns) const;
+  Weather weather() const;
+  double wiperShare() const { return motor_.share(); }
+  double wetness() const { return 1.0 - std::exp(-water_on_road_mm_ / 0.15); }
+  double adaptedLuminance() const { return std::exp(log_luminance_); }
+  WiperMode wiperMode() const { return motor_.mode(); }
+  void resize(glm::ivec2 size_px) { size_px_ = size_px; }
+  Driver& driver() { return driver_; }
+  double timeS() const;
+
+ private:
+  void tick();
+  void tell();
+  Eye eyeOf(const CarState& car) const;
+  rg_view viewOf(const CarState& car) const;
+
+  const Scenario& scenario_;
+  const CarView& car_;
+  RainPlugin& plugin_;
+  glm::ivec2 size_px_;
+  Route route_;
+  Driver driver_;
+  WiperMotor motor_;
+  int64_t prewarm_ns_ = 0;
+  int64_t tick_ = -1;  // of the plugin's clock; -1: not begun
+  std::vector<rg_wiper_knot> knots_;
+  double water_on_road_mm_ = 0.0;
+  double log_luminance_ = 0.0;
+  bool adapted_ = false;
+  std::string camera_before_;
+  bool cut_ = true;
+};
+
+}  // namespace host

@@ -1,0 +1,166 @@
+#include "stage.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "image/hdr.h"
+
+namespace host {
+namespace {
+
+constexpr double kBrakeLights_mps2 = -0.7;  // coasting does not light them
+
+bool hasModels(const std::filesystem::path& folder) {
+  std::error_code error;
+  return std::filesystem::is_directory(folder / "scenarios", error) && std::filesystem::is_directory(folder / "models", error);
+}
+
+std::optional<std::filesystem::path> upwards(std::filesystem::path folder) {
+  for (; !folder.empty(); folder = folder.parent_path()) {
+    if (hasModels(folder)) return folder;
+    if (folder == folder.root_path()) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::filesystem::path projectRoot() {
+  std::error_code error;
+  if (const auto root = upwards(std::filesystem::read_symlink("/proc/self/exe", error).parent_path())) return *root;
+  if (const auto root = upwards(std::filesystem::current_path(error))) return *root;
+  throw InputError("neither this program nor the working folder lies below a folder with scenarios/ and models/");
+}
+
+Scenario chosenScenario(const Options& options) {
+  Scenario s = loadScenario(options.scenario, options.changes, projectRoot());
+  if (options.seconds) s.seconds = *options.seconds;
+  if (options.seed) s.seed = *options.seed;
+  if (!options.car.empty()) s.car = options.car;
+  if (!options.road.empty()) s.road = options.road;
+  if (!options.camera.empty()) s.camera = options.camera;
+  return s;
+}
+
+Stage::Stage(const Options& options, const Scenario& scenario, Context& context) : scenario_(scenario), context_(context) {
+  if (!scenario.car.empty()) {
+    car_scene_ = loadScene(scenario.car);
+    car_ = carView(*car_scene_);
+  }
+  if (!scenario.road.empty()) {
+    road_scene_ = loadScene(scenario.road);
+    road_ = roadView(*road_scene_);
+  }
+  renderer_ = std::make_unique<Renderer>(context);
+  if (road_scene_) road_instance_ = renderer_->addInstance(renderer_->addScene(*road_scene_, SceneFrame::Road));
+  if (car_scene_) {
+    car_instance_ = renderer_->addInstance(renderer_->addScene(*car_scene_, SceneFrame::Car));
+    poses_ = car_scene_->restPoses();
+  }
+  if (!options.environment.empty()) {
+    const HdrImage hdr = loadHdr(options.environment);
+    renderer_->setEnvironment(hdr.rgb, hdr.width_px, hdr.height_px);
+  }
+  plugin_ = std::make_unique<RainPlugin>("", scenario.seed);
+  plugin_->attach(context);
+  plugin_->addRoad(road_);
+  plugin_->addCar(car_);
+  for (const auto& [name, value] : scenario.parameters) {
+    try {
+      plugin_->setParameter(name, value);
+    } catch (const PluginError& e) {
+      throw InputError(std::string("scenario's ") + e.what());
+    }
+  }
+  simulation_ = std::make_unique<Simulation>(scenario, car_, road_, *plugin_, options.size_px);
+  simulation_->adapting_luminance = [this](glm::dvec3 eye_m) { return renderer_->adaptingLuminance(eye_m); };
+}
+
+void Stage::update(int64_t time_ns) {
+  simulation_->advance(time_ns);
+  plugin_->update(simulation_->pluginTime(time_ns));
+  plugin_->stepGpu();
+}
+
+void Stage::prewarm() {
+  const auto whole_ns = static_cast<int64_t>(std::ceil(scenario_.prewarm_s)) * 1'000'000'000;
+  constexpr int64_t kPiece_ns = 100'000'000;
+  renderer_->beginFrame(sky(0), simulation_->eyeAt(0).position_m);
+  for (int64_t t = -whole_ns; t < 0; t += kPiece_ns) {
+    update(t);
+    if (isatty(2) != 0 && t % 1'000'000'000 == 0) std::fprintf(stderr, "\rrain before the first picture: %lld s ", static_cast<long long>(-t / 1'000'000'000));
+  }
+  update(0);
+}
+
+Sky Stage::sky(int64_t time_ns) const {
+  const Weather w = simulation_->weather();
+  Sky sky;
+  sky.rain_mm_h = w.rain_mm_h;
+  sky.visibility_m = w.visibility_m;
+  sky.wetness = simulation_->wetness();
+  sky.time_s = static_cast<double>(time_ns) * 1e-9;
+  const double up = glm::radians(scenario_.sun_elevation_deg), round = glm::radians(scenario_.sun_azimuth_deg);
+  sky.to_sun = {std::cos(up) * std::cos(round), std::cos(up) * std::sin(round), std::sin(up)};
+  return sky;
+}
+
+void Stage::pose(int64_t time_ns) {
+  if (!car_instance_) return;
+  const CarState car = simulation_->carAt(time_ns);
+  for (const Animation& a : car_scene_->animations) animate(a, static_cast<float>(std::fmod(static_cast<double>(time_ns) * 1e-9, std::max(1e-3F, a.duration_s))), poses_);
+  for (const WiperView& w : car_.wipers) turnNode(*car_scene_, w.node, {0.0F, 1.0F, 0.0F}, w.sweep_rad * static_cast<float>(simulation_->wiperShare()), poses_);
+  if (car_.steering_wheel) {
+    const float angle = static_cast<float>(car.steering_rad) * car_.steering_wheel->ratio;
+    turnNode(*car_scene_, car_.steering_wheel->node, {0.0F, 1.0F, 0.0F}, angle, poses_);
+  }
+  for (const WheelView& w : car_.wheels) {
+    const auto spin = static_cast<float>(std::fmod(car.driven_m / static_cast<double>(w.radius_m), 2.0 * glm::pi<double>()));
+    turnNode(*car_scene_, w.node, {1.0F, 0.0F, 0.0F}, spin, poses_);
+  }
+  Placement placement;
+  placement.world_from_host = glm::mat4_cast(car.orientation);
+  placement.world_from_host[3] = glm::dvec4(car.position_m, 1.0);
+  placement.poses = poses_;
+  placement.lamp_levels[static_cast<size_t>(LightRole::Head)] = scenario_.headlights ? 1.0F : 0.0F;
+  placement.lamp_levels[static_cast<size_t>(LightRole::Tail)] = scenario_.headlights ? 1.0F : 0.0F;
+  placement.lamp_levels[static_cast<size_t>(LightRole::Brake)] = car.acceleration_mps2 < kBrakeLights_mps2 ? 1.0F : 0.0F;
+  renderer_->place(*car_instance_, placement);
+}
+
+void Stage::draw(int64_t time_ns, const Target& target, uint32_t framebuffer, int captures) {
+  const Eye eye = simulation_->eyeAt(time_ns);
+  const rg_view view = simulation_->pluginViewAt(time_ns);
+  const int64_t plugin_ns = simulation_->pluginTime(time_ns);
+  pose(time_ns);
+  renderer_->beginFrame(sky(time_ns), eye.position_m);
+  const LightSummary light = renderer_->lighting();
+  plugin_->capture(*renderer_, view, captures);
+  const bool inside = eye.inside && car_instance_.has_value();
+  if (inside || !car_instance_) renderer_->drawWorld(eye.view, target);
+  else renderer_->drawWorld(eye.view, target, std::span(&*car_instance_, 1));
+  if (inside) renderer_->drawParts(eye.view, target, *car_instance_, kBody | kWipers);
+  plugin_->drawWorld(plugin_ns, view, target, light);
+  plugin_->drawGlass(plugin_ns, view, target, light);
+  plugin_->drawFinish(plugin_ns, view, target, light);
+  renderer_->toneMap(target, framebuffer, exposureFor(simulation_->adaptedLuminance()));
+}
+
+void Stage::fillReport(Report& report) {
+  report.gl_vendor = context_.vendor();
+  report.gl_renderer = context_.rendererName();
+  report.gl_version = context_.version();
+  report.gpu_timer = plugin_->gpuTimer();
+  report.scenario = scenario_.name;
+  report.seed = scenario_.seed;
+  report.stages = plugin_->stages();
+  report.rain = plugin_->rainStats();
+  report.panes = plugin_->paneStats();
+  report.rain_hash = plugin_->hash(RG_HASH_RAIN);
+  report.state_hash = plugin_->hash(RG_HASH_STATE);
+  report.gl_errors = context_.glErrors();
+}
+
+}  // namespace host

@@ -1,0 +1,59 @@
+// All that a picture needs, put together once: context, models, renderer, plugin, simulation. And the order of a picture.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "options.h"
+#include "rain_plugin.h"
+#include "render/renderer.h"
+#include "render/target.h"
+#include "report.h"
+#include "scenario.h"
+#include "scene/scene.h"
+#include "scene/views.h"
+#include "simulation.h"
+#include "window/context.h"
+
+namespace host {
+
+// Where scenarios/ and models/ are: the nearest folder above this program (or above the working folder) that has both.
+std::filesystem::path projectRoot();
+
+// Scenario and models as the options say. Throws InputError or SceneError.
+Scenario chosenScenario(const Options& options);
+
+class Stage {
+ public:
+  Stage(const Options& options, const Scenario& scenario, Context& context);
+
+  // Takes the world and the plugin to a moment of the scenario's clock.
+  void update(int64_t time_ns);
+  // Scenario's prewarm, in pieces, with a progress line.
+  void prewarm();
+  // Draws the moment into `target` and tone-maps it into `framebuffer`. At most `captures` faces of the surroundings are drawn anew for the
+  // glass: 1 in a running picture, all 6 for a single one.
+  void draw(int64_t time_ns, const Target& target, uint32_t framebuffer, int captures = 1);
+  void fillReport(Report& report);
+
+  Simulation& simulation() { return *simulation_; }
+  RainPlugin& plugin() { return *plugin_; }
+  Renderer& renderer() { return *renderer_; }
+
+ private:
+  void pose(int64_t time_ns);
+  Sky sky(int64_t time_ns) const;
+
+  const Scenario& scenario_;
+  Context& context_;
+  std::optional<Scene> car_scene_, road_scene_;
+  CarView car_;
+  RoadView road_;
+  std::unique_ptr<Renderer> renderer_;
+  std::optional<InstanceId> car_instance_, road_instance_;
+  std::unique_ptr<RainPlugin> plugin_;
+  std::unique_ptr<Simulation> simulation_;
+  std::vector<Pose> poses_;
+};
+
+}  // namespace host
