@@ -1,0 +1,44 @@
+// Frame budgets: what budgets.toml allows is kept, and is no limit that nothing could break.
+#include <gtest/gtest.h>
+
+#include "run_host.h"
+
+namespace testing_host {
+namespace {
+
+// Noise of a shared machine only ever adds time: the best of three medians counts.
+int bestOfThree(const std::string& arguments, std::string& table) {
+  int exit_code = 0;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const auto folder = freshFolder("budget");
+    const Run run = runHost(arguments + " --out " + folder.string(), "MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_THRESHOLD_=2000000000");
+    std::filesystem::remove_all(folder);
+    table = run.out + run.err;
+    exit_code = run.exit_code;
+    if (exit_code == 0) return 0;
+  }
+  return exit_code;
+}
+
+std::string arguments(const std::string& scenario) {
+  return "--headless --size 640x360 --fps 10 --seconds 3 --scenario " + scenario + " --budget " RG_SOURCE_DIR "/budgets.toml";
+}
+
+TEST(Budget, driveKeepsIt) {
+  std::string table;
+  EXPECT_EQ(bestOfThree(arguments("drive"), table), 0) << table;
+}
+
+TEST(Budget, downpourKeepsIt) {
+  std::string table;
+  EXPECT_EQ(bestOfThree(arguments("downpour"), table), 0) << table;
+}
+
+TEST(Budget, tripsWhenTheWorkIsThreeTimesLarger) {
+  std::string table;
+  EXPECT_EQ(bestOfThree(arguments("downpour") + " --set plugin.bench.repeat=3", table), 4) << table;
+  EXPECT_NE(table.find("OVER"), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace testing_host

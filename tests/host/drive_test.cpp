@@ -1,0 +1,192 @@
+// The driver, the wiper motor, scenarios and the schedule of a run.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "drive/driver.h"
+#include "drive/ticks.h"
+#include "drive/wiper_control.h"
+#include "scenario.h"
+#include "schedule.h"
+
+namespace host {
+namespace {
+
+std::vector<glm::dvec3> circle(double radius_m, int points) {
+  std::vector<glm::dvec3> line;
+  for (int i = 0; i <= points; ++i) {
+    const double a = 1.5 * i / points;
+    line.emplace_back(radius_m * std::sin(a), radius_m * (1.0 - std::cos(a)), 0.0);
+  }
+  return line;
+}
+
+TEST(Route, keepsLengthAndCurvatureOfACircle) {
+  const Route route(circle(80.0, 24));
+  EXPECT_NEAR(route.length_m(), 120.0, 0.6);  // the table's step is half a metre
+  for (double way = 15.0; way < 100.0; way += 5.0) EXPECT_NEAR(route.curvature_per_m(way), 1.0 / 80.0, 0.02 / 80.0);
+}
+
+TEST(Route, findsTheNearestWay) {
+  const Route route(circle(80.0, 24));
+  EXPECT_NEAR(route.nearestWay(route.position(42.0) + glm::dvec3(0.0, 0.0, 1.0), -1.0), 42.0, 0.5);
+}
+
+TEST(Driver, brakesSmoothlyToAStopWaitsAndGoesOn) {
+  const Route route({{0, 0, 0}, {300, 0, 0}, {600, 0, 0}});
+  DrivePlan plan;
+  plan.speed_mps = Curve(20.0);
+  plan.stops = {{200.0, 2.0}};
+  Driver driver(route, plan);
+  double hardest = 0.0, stood_s = 0.0, stood_at_m = 0.0;
+  for (int i = 0; i < 120 * 30; ++i) {
+    driver.tick();
+    hardest = std::max(hardest, std::abs(driver.state().acceleration_mps2));
+    if (driver.state().speed_mps == 0.0) {
+      stood_s += kHostTickSeconds;
+      stood_at_m = driver.state().way_m;
+    }
+  }
+  EXPECT_NEAR(stood_at_m, 200.0, 0.3);
+  EXPECT_NEAR(stood_s, 2.0, 0.1);
+  EXPECT_LT(hardest, 3.6);  // 1.6 times the calm braking it plans with
+  EXPECT_GT(driver.state().way_m, 300.0);
+}
+
+TEST(Driver, slowsForABend) {
+  const Route route(circle(40.0, 40));
+  DrivePlan plan;
+  plan.speed_mps = Curve(40.0);
+  Driver driver(route, plan);
+  for (int i = 0; i < 240; ++i) {
+    driver.tick();
+    const double sideways = driver.state().speed_mps * driver.state().speed_mps / 40.0;
+    if (driver.state().way_m < 12.0) continue;
+    EXPECT_LT(sideways, 2.8);  // plans with 2.4 m/s^2; the speed lags a little
+  }
+}
+
+TEST(Driver, velocityIsTheChangeOfPosition) {
+  const Route route(circle(60.0, 30));
+  DrivePlan plan;
+  plan.speed_mps = Curve(10.0);
+  Driver driver(route, plan);
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec3 before = driver.state().position_m;
+    driver.tick();
+    EXPECT_LT(glm::length((driver.state().position_m - before) / kHostTickSeconds - driver.state().velocity_mps), 1e-9);
+  }
+}
+
+TEST(WiperMotor, makesItsCyclesPerMinuteAndParksAfterwards) {
+  for (const auto& [mode, cycles_per_min] : {std::pair{WiperMode::slow, kSlowCycles_per_min}, std::pair{WiperMode::fast, kFastCycles_per_min}}) {
+    WiperMotor motor;
+    motor.setMode(mode);
+    int reversals = 0;
+    for (int i = 0; i < 120 * 60; ++i) {
+      for (const WiperKnotShare& k : motor.tick()) reversals += k.share == 1.0 && k.seconds_into_tick < kHostTickSeconds ? 1 : 0;
+    }
+    EXPECT_NEAR(reversals, cycles_per_min, 1.0);
+    motor.setMode(WiperMode::off);
+    for (int i = 0; i < 240; ++i) motor.tick();
+    EXPECT_EQ(motor.share(), 0.0);
+  }
+  // FMVSS 104: the fast one 45 a minute or more, the slow one 20 or more, 15 or more apart.
+  EXPECT_GE(kFastCycles_per_min, 45.0);
+  EXPECT_GE(kSlowCycles_per_min, 20.0);
+  EXPECT_GE(kFastCycles_per_min - kSlowCycles_per_min, 15.0);
+}
+
+TEST(Ticks, lieWhereTheClockSays) {
+  EXPECT_EQ(hostTickNs(120), 1'000'000'000);
+  for (const int64_t t : {INT64_C(0), INT64_C(8'333'332), INT64_C(8'333'333), INT64_C(999'999'999), INT64_C(1'000'000'000), INT64_C(123'456'789'012)}) {
+    EXPECT_LE(hostTickNs(hostTickAt(t)), t);
+    EXPECT_GT(hostTickNs(hostTickAt(t) + 1), t);
+  }
+}
+
+TEST(Scenario, allThatAreShippedLoad) {
+  int loaded = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(RG_SOURCE_DIR "/scenarios")) {
+    EXPECT_NO_THROW(loadScenario(entry.path().string(), {}, RG_SOURCE_DIR)) << entry.path();
+    ++loaded;
+  }
+  EXPECT_GE(loaded, 5);
+}
+
+TEST(Scenario, changesFromTheCommandLineReachIt) {
+  const Scenario s = loadScenario("drive", {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off", "plugin.rain.gain=2"}, RG_SOURCE_DIR);
+  EXPECT_EQ(s.rain_mm_h.at(0.0), 12.5);
+  EXPECT_EQ(s.seconds, 3.0);
+  EXPECT_EQ(s.camera, "outside");
+  EXPECT_EQ(wiperModeAt(s, 30.0), WiperMode::off);
+  ASSERT_EQ(s.parameters.size(), 1U);
+  EXPECT_EQ(s.parameters[0].first, "rain.gain");
+}
+
+TEST(Scenario, wrongInputIsNamedInOneLine) {
+  const auto message = [](const std::vector<std::string>& changes) -> std::string {
+    try {
+      loadScenario("drive", changes, RG_SOURCE_DIR);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  for (const auto& [change, named] : std::vector<std::pair<std::string, std::string>>{
+           {"weather.rain_mm_h=-1", "rain_mm_h"},
+           {"weather.rain_mm_h=nan", "rain_mm_h"},
+           {"weather.rain_mm_h=1e9", "rain_mm_h"},
+           {"weather.rain_mm_h=[[1,2],[1,3]]", "rain_mm_h"},
+           {"weather.reign=1", "reign"},
+           {"wipers=3", "wipers"},
+           {"camera=moon", "camera"},
+           {"seconds=-4", "seconds"},
+           {"drive=5", "drive"},
+           {"drive.stops=[[1]]", "stops"},
+           {"nonsense", "nonsense"},
+           {".x=1", ".x"},
+           {"drive.=1", "drive."}}) {
+    const std::string text = message({change});
+    EXPECT_NE(text.find(named), std::string::npos) << change << " -> " << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+  EXPECT_THROW(loadScenario("no-such-scenario", {}, RG_SOURCE_DIR), InputError);
+}
+
+TEST(Schedule, updatesAndPicturesFallWhereAskedAndTheEndIsAlwaysUpdated) {
+  Options o;
+  o.fps = 10.0;
+  o.update_hz = 30.0;
+  o.shots_s = {0.25};
+  const std::vector<Event> events = schedule(o, 1.0);
+  int updates = 0, draws = 0;
+  for (const Event& e : events) {
+    updates += e.update ? 1 : 0;
+    draws += e.draw ? 1 : 0;
+  }
+  EXPECT_EQ(updates, 31);
+  EXPECT_EQ(draws, 1);
+  EXPECT_EQ(events.back().time_ns, 1'000'000'000);
+  EXPECT_TRUE(events.back().update);
+}
+
+TEST(Schedule, irregularUpdatesNeverRepeatTheirStep) {
+  Options o;
+  o.irregular_updates = true;
+  o.shots_s = {0.5};
+  int64_t before = -1, step_before = -1;
+  for (const Event& e : schedule(o, 2.0)) {
+    if (!e.update) continue;
+    if (before >= 0) {
+      EXPECT_NE(e.time_ns - before, step_before);
+    }
+    step_before = before >= 0 ? e.time_ns - before : -1;
+    before = e.time_ns;
+  }
+}
+
+}  // namespace
+}  // namespace host

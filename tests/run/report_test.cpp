@@ -1,0 +1,62 @@
+// What a run reports, and that water is conserved in every scenario that is shipped.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "run_host.h"
+
+namespace testing_host {
+namespace {
+
+constexpr double kLedger = 1e-3;  // the project's promise
+
+nlohmann::json runScenario(const std::string& name, const std::string& options) {
+  const auto folder = freshFolder("report");
+  const Run run = runHost("--headless --size 64x36 --scenario " + name + " " + options + " --out " + folder.string());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  nlohmann::json json = report(folder);
+  std::filesystem::remove_all(folder);
+  return json;
+}
+
+TEST(Report, holdsWhatItPromises) {
+  const nlohmann::json json = runScenario("parked", "--seconds 1 --fps 10");
+  ASSERT_TRUE(json.is_object());
+  for (const char* key : {"vendor", "renderer", "version"}) EXPECT_TRUE(json["gl"][key].is_string()) << key;
+  EXPECT_TRUE(json["timer"] == "gpu" || json["timer"] == "finish");
+  EXPECT_EQ(json["scenario"], "parked");
+  EXPECT_EQ(json["frames"], 11);
+  EXPECT_EQ(json["simulated_s"], 1.0);
+  EXPECT_GT(json["wall_s"], 0.0);
+  EXPECT_EQ(json["gl_errors"], 0);
+  for (const char* stage : {"rain_tick", "glass_tick", "rain_upload", "glass_step", "rain_draw", "glass_draw"}) {
+    ASSERT_TRUE(json["stages"].contains(stage)) << stage;
+    EXPECT_LE(json["stages"][stage]["cpu_ms"]["p50"], json["stages"][stage]["cpu_ms"]["p99"]) << stage;
+  }
+  EXPECT_GT(json["stages"]["rain_draw"]["gpu_ms"]["p50"], 0.0);
+  for (const char* key : {"rate_mm_h", "live", "born", "died", "sheltered_at_birth", "shelter_tests"}) EXPECT_TRUE(json["rain"].contains(key)) << key;
+  EXPECT_EQ(json["rain"]["rate_mm_h"], 10.0);
+  ASSERT_FALSE(json["panes"].empty());
+  for (const char* key : {"area_m2", "caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml", "evaporated_ml", "ledger_error"}) {
+    EXPECT_TRUE(json["panes"][0][key].is_number()) << key;
+  }
+}
+
+// Each term of the ledger is put to the test: somewhere it is more than a millilitre.
+TEST(Report, waterIsConservedInEveryScenarioAndEveryTermExceedsAMillilitreSomewhere) {
+  std::map<std::string, double> most;
+  for (const auto& entry : std::filesystem::directory_iterator(RG_SOURCE_DIR "/scenarios")) {
+    const std::string name = entry.path().stem().string();
+    const nlohmann::json json = runScenario(name, "--shots 0");
+    ASSERT_TRUE(json.is_object()) << name;
+    EXPECT_EQ(json["gl_errors"], 0) << name;
+    for (const auto& pane : json["panes"]) {
+      EXPECT_LE(pane["ledger_error"], kLedger) << name << " " << pane["name"];
+      for (const char* term : {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml", "evaporated_ml"}) most[term] = std::max(most[term], pane[term].get<double>());
+    }
+  }
+  for (const auto& [term, ml] : most) EXPECT_GT(ml, 1.0) << term;
+}
+
+}  // namespace
+}  // namespace testing_host
