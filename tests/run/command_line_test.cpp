@@ -9,14 +9,14 @@ namespace testing_host {
 namespace {
 
 void expectRefused(const std::string& arguments, int exit_code, const std::string& named, const std::string& environment = "") {
-  const Run run = runHost(arguments, environment);
+  const Outcome run = runHost(arguments, environment);
   EXPECT_EQ(run.exit_code, exit_code) << arguments << "\n" << run.err;
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << arguments << "\n" << run.err;
   EXPECT_NE(run.err.find(named), std::string::npos) << arguments << "\n" << run.err;
 }
 
 TEST(CommandLine, helpNamesEveryOption) {
-  const Run run = runHost("--help");
+  const Outcome run = runHost("--help");
   EXPECT_EQ(run.exit_code, 0);
   for (const char* option : {"--scenario", "--environment", "--drops", "--headless", "--size", "--fps", "--seconds", "--seed", "--car", "--road", "--set",
                              "--camera", "--shots", "--video", "--out", "--budget", "--update-hz"}) {

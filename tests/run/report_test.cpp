@@ -12,7 +12,7 @@ constexpr double kLedger = 1e-3;  // the project's promise
 
 nlohmann::json runScenario(const std::string& name, const std::string& options) {
   const auto folder = freshFolder("report");
-  const Run run = runHost("--headless --size 64x36 --scenario " + name + " " + options + " --out " + folder.string());
+  const Outcome run = runHost("--headless --size 64x36 --scenario " + name + " " + options + " --out " + folder.string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
   nlohmann::json json = report(folder);
   std::filesystem::remove_all(folder);

@@ -15,7 +15,7 @@ std::ostream& operator<<(std::ostream& out, const Hashes& h) { return out << h.r
 
 Hashes hashesOf(const std::string& options) {
   const auto folder = freshFolder("state");
-  const Run run = runHost("--headless --scenario drive --seconds 2.5 --size 64x36 --set prewarm_s=1 --set drive.start_m=300 " + options + " --out " + folder.string());
+  const Outcome run = runHost("--headless --scenario drive --seconds 2.5 --size 64x36 --set prewarm_s=1 --set drive.start_m=300 " + options + " --out " + folder.string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json json = report(folder);
   std::filesystem::remove_all(folder);

@@ -15,7 +15,7 @@
 
 namespace testing_host {
 
-struct Run {
+struct Outcome {
   int exit_code = -1;
   std::string out, err;
 };
@@ -36,11 +36,11 @@ inline std::filesystem::path freshFolder(const std::string& name) {
 }
 
 // `arguments` go through the shell; `environment` like "A=1 B=2".
-inline Run runHost(const std::string& arguments, const std::string& environment = "") {
+inline Outcome runHost(const std::string& arguments, const std::string& environment = "") {
   const auto folder = freshFolder("run");
   const std::string command = environment + " " + RG_BIN_DIR + "/host_sim " + arguments + " >" + (folder / "out").string() + " 2>" + (folder / "err").string();
   const int status = std::system(command.c_str());
-  Run run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder / "out"), slurp(folder / "err")};
+  Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder / "out"), slurp(folder / "err")};
   std::filesystem::remove_all(folder);
   return run;
 }
