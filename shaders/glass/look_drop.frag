@@ -60,59 +60,49 @@ vec2 straighten(vec2 base) {
   return vec2(base.x, base.y / narrow) / (1.0 + ragged);
 }
 
-struct Seen {
-  vec3 light;
-  float cover;  // share of the footprint the drop is seen in
-};
+// Share of a footprint (edges dx, dy) about a place on the glass in which the drop is seen: over its base's outline, from the dry side, or over
+// its cap's. Signed distances to both in base radii by the distance that the footprint spans across the edge.
+float coverage(Cap cap, vec2 base, vec3 d, vec2 dx, vec2 dy) {
+  float inv = 1.0 / cap.stretch;
+  vec2 q = vec2(base.x * inv, base.y);
+  float q_length = max(length(q), 1e-4);
+  vec2 outline = vec2(q.x * inv, q.y) / q_length;
+  float inside = d.z > 0.0 ? (1.0 - q_length) / max(length(vec2(dot(outline, dx), dot(outline, dy))), 1e-6) : -1e6;
+  if (meetCap(cap, vec3(base, 0.0), d).x * d.z > 0.0) {
+    vec3 o = vec3(q, -cap.centre_z);
+    vec3 e = vec3(d.x * inv, d.yz);
+    vec3 nearest = o - e * (dot(o, e) / dot(e, e));
+    float nearest_length = max(length(nearest), 1e-4);
+    vec2 limb = vec2(nearest.x * inv, nearest.y) / nearest_length;
+    inside = max(inside, (cap.radius - nearest_length) / max(length(vec2(dot(limb, dx), dot(limb, dy))), 1e-6));
+  }
+  return clamp(inside + 0.5, 0.0, 1.0);
+}
 
-// `footprint`: what a sample spans on the glass, across and along the view.
-Seen look(Cap cap, vec2 base, vec3 d, vec2 dx, vec2 dy) {
+// Light that comes along the view ray through a place on the glass, out of the drop. `footprint`: width of the pixel's rays there.
+vec3 lightThrough(Cap cap, vec2 base, vec3 d, float footprint) {
   vec3 p = vec3(base, 0.0);
   vec3 meet = meetCap(cap, p, d);
-  // Signed distances in base radii: to the base's outline, seen from the dry side only, and to the cap's.
-  vec2 q = vec2(base.x / cap.stretch, base.y);
-  float q_length = max(length(q), 1e-4);
-  vec2 base_gradient = -vec2(q.x / cap.stretch, q.y) / q_length;
-  float base_inside = (1.0 - q_length) / max(length(vec2(dot(base_gradient, dx), dot(base_gradient, dy))), 1e-6);
-  float inv = 1.0 / cap.stretch;
-  vec3 o = vec3(p.x * inv, p.y, p.z - cap.centre_z);
-  vec3 e = vec3(d.x * inv, d.y, d.z);
-  vec3 nearest = o - e * (dot(o, e) / dot(e, e));
-  float nearest_length = max(length(nearest), 1e-4);
-  vec2 cap_gradient = -vec2(nearest.x * inv, nearest.y) / nearest_length;
-  float cap_inside = (cap.radius - nearest_length) / max(length(vec2(dot(cap_gradient, dx), dot(cap_gradient, dy))), 1e-6);
-
   bool from_dry = d.z > 0.0;
-  bool through_base = from_dry && q_length < 1.0;
-  bool cap_above = p.z + meet.x * d.z > 0.0;
-  float inside = from_dry ? base_inside : -1e6;
-  if (cap_above) inside = max(inside, cap_inside);
-  Seen seen;
-  seen.cover = clamp(inside + 0.5, 0.0, 1.0);
-  seen.light = vec3(0.0);
-  if (seen.cover <= 0.0) return seen;
-
-  float footprint = sqrt(abs(dx.x * dy.y - dx.y * dy.x) * max(abs(d.z), 0.05));
-  bool on_cap = !through_base && cap_above && meet.z > 0.0;
-  vec3 normal;
+  float from_middle = length(vec2(base.x / cap.stretch, base.y));
+  bool through_base = from_dry && from_middle < 1.0;
+  bool on_cap = !through_base && meet.x * d.z > 0.0 && meet.z > 0.0;
+  vec3 normal = vec3(0.0, 0.0, -1.0);
   if (on_cap) {
     p += d * meet.x;
     normal = capNormal(cap, p);
-  } else {  // the edge's pixels look just inside
-    p.xy = vec2(q.x * cap.stretch, q.y) * min(1.0, 0.98 / q_length);
-    normal = vec3(0.0, 0.0, -1.0);
+  } else {  // a ray that just misses sees what its neighbour within does
+    p.xy *= min(1.0, 0.98 / max(from_middle, 1e-4));
     if (!from_dry) normal = capNormal(cap, vec3(p.xy, 0.02));
   }
   float cosine = max(-dot(d, normal), 0.02);
   float reflected = fresnel(cosine, kWaterIndex);
   float curvature = on_cap ? 1.0 / cap.radius : 0.0;
-  if (reflected > 0.004) seen.light = reflected * arriving(reflect(d, normal), 2.0 * curvature * footprint * cosine);
+  vec3 light = vec3(0.0);
+  if (reflected > 0.004) light = reflected * arriving(reflect(d, normal), 2.0 * curvature * footprint * cosine);
   vec3 inner = refract(d, normal, 1.0 / kWaterIndex);
-  if (on_cap || from_dry) p.z = max(p.z, 0.0);
-  float inner_cosine = -dot(inner, normal);
-  float spread = curvature * footprint * (cosine / kWaterIndex - inner_cosine);
-  seen.light += (1.0 - reflected) * traceInside(cap, p, inner, footprint, spread);
-  return seen;
+  float spread = curvature * footprint * (cosine / kWaterIndex + dot(inner, normal));
+  return light + (1.0 - reflected) * traceInside(cap, p, inner, footprint, spread);
 }
 
 void main() {
@@ -121,16 +111,18 @@ void main() {
   vec2 dx = dFdx(i.base);
   vec2 dy = dFdy(i.base);
   float count = float(i.samples);
-  vec3 light = vec3(0.0);
   float cover = 0.0;
+  vec2 middle = vec2(0.0);  // of the covered part: there the pixel's one ray goes
   for (int a = 0; a < i.samples * i.samples; ++a) {
     vec2 offset = (vec2(a % i.samples, a / i.samples) + 0.5) / count - 0.5;
     vec2 base = straighten(i.base + dx * offset.x + dy * offset.y);
-    Seen seen = look(cap, base, d, dx / count, dy / count);
-    light += seen.light * seen.cover;
-    cover += seen.cover;
+    float share = coverage(cap, base, d, dx / count, dy / count);
+    cover += share;
+    middle += share * base;
   }
   if (cover <= 0.0) discard;
+  float footprint = sqrt(abs(dx.x * dy.y - dx.y * dy.x) * max(abs(d.z), 0.05));
+  vec3 light = lightThrough(cap, middle / cover, d, footprint);
   float alpha = cover / (count * count) * i.outline.w;
-  color = vec4(encode(frame.brightness * light / cover) * alpha, alpha);
+  color = vec4(encode(frame.brightness * light) * alpha, alpha);
 }
