@@ -5,7 +5,7 @@
 in DropToPixel {
   vec2 base;
   vec3 from_eye;
-  flat vec4 cap;
+  flat vec3 cap;
   flat vec4 outline;
   flat mat3 world_from_drop;
   flat int samples;

@@ -13,7 +13,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 viewport;            // px: x, y, width, height
   vec2 uv_per_m;            // pane's uv for a grid metre
   float drop_age_s;
-  float unused;
+  int drop_count;
   float exposure;
   float pixels_per_rad;     // at the picture's middle
   float environment_texels_per_rad;

@@ -16,6 +16,8 @@ namespace rg::glass {
 namespace {
 
 constexpr int kMeshStride = 8 * sizeof(float);
+constexpr size_t kSeenDropBytes = 96;  // shaders/optics/seen_drop.glsl
+constexpr int kPlaceGroup = 64;        // drops in a group of look_place.comp
 constexpr float kFineRadius_px = 6.0f;
 
 enum Unit : GLuint { kPicture = 0, kEnvironment = 1, kFirst = 2, kSecond = 3, kThird = 4 };
@@ -25,7 +27,8 @@ struct FrameBlock {
   glm::mat4 clip_from_eye, eye_from_vehicle, eye_from_world, world_from_vehicle;
   glm::vec4 eye_in_vehicle, sky_radiance, ground_radiance, viewport;
   glm::vec2 uv_per_m;
-  float drop_age_s, unused;
+  float drop_age_s;
+  int32_t drop_count;
   float exposure, pixels_per_rad, environment_texels_per_rad, cabin_share;
   float brightness, blur, fine_radius_px;
   uint32_t has_environment;
@@ -51,6 +54,7 @@ struct GlassLook::Parts {
       : gl(context),
         film_program(gl, {"glass/look_screen.vert", "glass/look_film.frag"}),
         pane_program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
+        place_program(gl, {"glass/look_place.comp"}),
         drop_program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}),
         frame_block(gl, sizeof(FrameBlock)),
         mesh_layout(gl),
@@ -75,6 +79,7 @@ struct GlassLook::Parts {
   void setState(const LookView& view, const LookTarget& target);
   void composeFilm(const LookPane& pane);
   void drawFilm(const LookPane& pane);
+  void placeDrops(const LookPane& pane);
   void drawDrops(const LookPane& pane);
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
@@ -82,8 +87,8 @@ struct GlassLook::Parts {
   }
 
   const GladGLContext& gl;
-  gl::Program film_program, pane_program, drop_program;
-  gl::Buffer frame_block;
+  gl::Program film_program, pane_program, place_program, drop_program;
+  gl::Buffer frame_block, seen_drops;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, mipped, exact;
   gl::TextureCube no_environment;  // black
@@ -109,6 +114,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.viewport = glm::vec4(view.viewport_px);
   block.uv_per_m = 1.0f / (pane.texel_m * glm::vec2(glm::max(pane.film_size, glm::ivec2(1))));
   block.drop_age_s = pane.drop_age_s;
+  block.drop_count = pane.drop_count;
   block.exposure = target.exposure;
   block.pixels_per_rad =
       static_cast<float>(std::abs(view.clipFromEye[1][1])) * 0.5f * static_cast<float>(view.viewport_px.w);
@@ -178,22 +184,32 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
 }
 
-void GlassLook::Parts::drawDrops(const LookPane& pane) {
-  gl.Enable(GL_BLEND);
+void GlassLook::Parts::placeDrops(const LookPane& pane) {
+  const size_t bytes = static_cast<size_t>(pane.drop_count) * kSeenDropBytes;
+  if (seen_drops.bytes() < bytes) seen_drops = gl::Buffer(gl, bytes + bytes / 2, 0);
   gl.BindTextureUnit(kFirst, pane.position);
   gl.BindTextureUnit(kSecond, pane.frame);
   gl.BindTextureUnit(kThird, pane.metric);
   for (const GLuint unit : {kFirst, kSecond, kThird}) gl.BindSampler(unit, smooth.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.drop_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen_drops.name());
+  place_program.use();
+  gl.DispatchCompute(static_cast<GLuint>(pane.drop_count + kPlaceGroup - 1) / kPlaceGroup, 1, 1);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void GlassLook::Parts::drawDrops(const LookPane& pane) {
+  gl.Enable(GL_BLEND);
   gl.BindVertexArray(no_layout.name());
   drop_program.use();
-  gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, pane.drop_count);
+  gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &pane_program, &drop_program}) program->forget();
+  for (gl::Program* program : {&film_program, &pane_program, &place_program, &drop_program}) program->forget();
   frame_block.forget();
+  seen_drops.forget();
   mesh_layout.forget();
   no_layout.forget();
   for (gl::Sampler* sampler : {&smooth, &mipped, &exact}) sampler->forget();
@@ -226,7 +242,10 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     p.setState(view, target);
     p.bindLook(light);
     p.drawFilm(pane);
-    if (pane.drop_count > 0) p.drawDrops(pane);
+    if (pane.drop_count > 0) {
+      p.placeDrops(pane);
+      p.drawDrops(pane);
+    }
   }
 }
 

@@ -1,0 +1,97 @@
+// Where each drop lies on the glass and how large a rectangle shows it to this eye: once for each, not for each of its corners.
+#include "optics/look_frame.glsl"
+#include "optics/seen_drop.glsl"
+#include "shared/glass_types.glsl"
+#include "shared/optics_drop.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Drops { GlassDropRecord drops[]; };
+layout(std430, binding = 1) readonly buffer Mesh { float mesh[]; };  // x, y, z, nx, ny, nz, u, v of each vertex
+layout(std430, binding = 2) writeonly buffer Seen { SeenDrop seen[]; };
+layout(binding = 2) uniform sampler2D pane_position;
+layout(binding = 3) uniform sampler2DArray pane_frame;
+layout(binding = 4) uniform sampler2D pane_metric;
+
+struct Place {
+  vec3 position_m;  // vehicle frame
+  vec3 head;
+  vec3 normal;
+};
+
+// +1 where cross(along u, along v) points out of the glass, -1 where the pane's uv are mirrored: as its first vertex tells.
+float handedness() {
+  vec3 outward = vec3(mesh[3], mesh[4], mesh[5]);
+  vec2 uv = vec2(mesh[6], mesh[7]);
+  vec3 across = cross(textureLod(pane_frame, vec3(uv, 0.0), 0.0).xyz, textureLod(pane_frame, vec3(uv, 1.0), 0.0).xyz);
+  return dot(across, outward) < 0.0 ? -1.0 : 1.0;
+}
+
+Place placeOf(GlassDropRecord drop) {
+  vec2 uv = (drop.position_m + drop.velocity_mps * frame.drop_age_s) * frame.uv_per_m;
+  vec3 along_u = textureLod(pane_frame, vec3(uv, 0.0), 0.0).xyz;
+  vec3 along_v = textureLod(pane_frame, vec3(uv, 1.0), 0.0).xyz;
+  vec2 metric = textureLod(pane_metric, uv, 0.0).xy;
+  Place place;
+  place.position_m = textureLod(pane_position, uv, 0.0).xyz;
+  place.normal = normalize(cross(along_u, along_v)) * handedness();
+  vec3 head = along_u * (drop.heading.x * metric.x) + along_v * (drop.heading.y * metric.y);
+  head -= place.normal * dot(head, place.normal);
+  place.head = dot(head, head) > 0.0 ? normalize(head) : normalize(along_u);
+  return place;
+}
+
+// Drops on wettable glass keep the ragged outline in which they met others; small ones and those on coated glass are round.
+float irregularityOf(GlassDropRecord drop) {
+  if (drop.seed == 0u) return 0.0;
+  return smoothstep(radians(85.0), radians(40.0), drop.contact_angle_rad) * smoothstep(0.5e-3, 2.0e-3, drop.base_radius_m);
+}
+
+// How far the cap's shadow on the glass, cast along the view ray, reaches along (1, slope) from the middle, in the space where the base is a
+// circle of radius 1. A cap's support function; the part of the sphere below the glass is left out.
+float reach(Cap cap, float slope) {
+  float s = inversesqrt(1.0 + slope * slope);
+  return cap.centre_z + cap.radius * slope * s > 0.0 ? max(1.0, cap.centre_z * slope + cap.radius / s) : 1.0;
+}
+
+bool inSight(vec4 clip, float margin) {
+  return clip.w > 0.0 && max(abs(clip.x) * abs(frame.clip_from_eye[1][1] / frame.clip_from_eye[0][0]), abs(clip.y)) <
+                             clip.w * max(1.0, abs(frame.clip_from_eye[1][1] / frame.clip_from_eye[0][0])) + margin;
+}
+
+void main() {
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= uint(frame.drop_count)) return;
+  GlassDropRecord drop = drops[k];
+  Place place = placeOf(drop);
+  vec3 from_eye = place.position_m - frame.eye_in_vehicle.xyz;
+  vec4 eye_position = frame.eye_from_vehicle * vec4(place.position_m, 1.0);
+  float pixel_m = max(-eye_position.z, 1e-3) / frame.pixels_per_rad;
+
+  // A drop narrower than a pixel is drawn a pixel wide and as much paler.
+  float stretch = max(drop.elongation, 1.0);
+  float across_m = drop.base_radius_m * inversesqrt(stretch);
+  float radius_m = max(across_m, 0.5 * pixel_m);
+  float weight = across_m / radius_m;
+  Cap cap = capOf(2.0 * atan(drop.height_m / across_m), stretch);
+
+  // The rectangle lies along the view ray's shadow on the glass; a grazing view would make it endless.
+  vec3 view = vec3(dot(from_eye, place.head), dot(from_eye, cross(place.normal, place.head)), dot(from_eye, place.normal)) / length(from_eye);
+  vec2 shadow = vec2(view.x / stretch, view.y) * (view.z > 0.0 ? -1.0 : 1.0);
+  float shadow_length = length(shadow);
+  float steep = max(abs(view.z), 0.06);
+  float slope = shadow_length / steep;
+  float irregularity = irregularityOf(drop);
+  float pixel = pixel_m / radius_m;
+  float pad = 0.2 * irregularity + pixel / steep;
+  bool visible = inSight(frame.clip_from_eye * eye_position, 8.0 * radius_m * stretch * abs(frame.clip_from_eye[1][1]));
+
+  SeenDrop o;
+  o.position_radius = vec4(place.position_m, radius_m);
+  o.head_stretch = vec4(place.head, stretch);
+  o.normal_pixel = vec4(place.normal, pixel);
+  o.cap_outline = vec4(cap.centre_z, cap.radius, irregularity, smoothstep(0.0, 0.1, length(drop.velocity_mps)) * step(1.05, stretch));
+  o.reach = vec4(shadow_length > 1e-4 ? shadow / shadow_length : vec2(1.0, 0.0), reach(cap, slope) + pad, reach(cap, -slope) + pad);
+  o.beside_phase = vec4((cap.centre_z > 0.0 ? cap.radius : 1.0) + 0.2 * irregularity + pixel, float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
+                        visible ? weight * weight : 0.0, radius_m < frame.fine_radius_px * pixel_m ? 2.0 : 1.0);
+  seen[k] = o;
+}
