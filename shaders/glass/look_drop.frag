@@ -1,25 +1,25 @@
 // A pixel of a drop: the ray from the eye is traced through the cap, face by face, and what leaves it looks up its surroundings.
 #include "shared/optics_drop.glsl"
+#include "optics/seen_drop.glsl"
 #include "optics/surroundings.glsl"
 
-in DropToPixel {
-  vec2 base;
-  vec3 from_eye;
-  flat vec3 cap;
-  flat vec4 outline;
-  flat mat3 world_from_drop;
-  flat int samples;
-} i;
+layout(std430, binding = 2) readonly buffer Seen { SeenDrop seen[]; };
+
+in vec2 base;
+flat in int which;
 
 layout(location = 0) out vec4 color;
 
+mat3 world_from_drop;
+bool eye_outside;
+
 // Light that arrives from where a ray leaves to, drop's frame. An eye outside sees the cabin in the picture, close behind the glass.
 vec3 arriving(vec3 direction, float spread_rad) {
-  if (direction.z < 0.0 && i.from_eye.z < 0.0) {
+  if (direction.z < 0.0 && eye_outside) {
     vec2 at = (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw;
     return decode(textureLod(picture, at, 3.0).rgb);
   }
-  return surroundingsOfGlass(i.world_from_drop * direction, i.world_from_drop[2], spread_rad);
+  return surroundingsOfGlass(world_from_drop * direction, world_from_drop[2], spread_rad);
 }
 
 // Follows a ray that has entered. At each face a share leaves by Fresnel, the rest stays. A pixel's bundle of rays is `footprint` wide and
@@ -52,23 +52,27 @@ vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread) {
 
 // Merged drops and those on dirty glass are not round, and those that run narrow towards the tail. Maps the glass so that the outline
 // becomes the ellipse that is traced.
-vec2 straighten(vec2 base) {
-  vec2 q = vec2(base.x / i.cap.z, base.y);
-  float angle = atan(q.y, q.x) + i.outline.z;
-  float ragged = i.outline.x * (0.07 * cos(2.0 * angle + 1.7 * i.outline.z) + 0.05 * cos(3.0 * angle) + 0.025 * cos(5.0 * angle - i.outline.z));
-  float narrow = 1.0 - 0.5 * i.outline.y * smoothstep(0.6, -1.0, q.x);
-  return vec2(base.x, base.y / narrow) / (1.0 + ragged);
+vec2 straighten(SeenDrop drop, vec2 place) {
+  float irregularity = drop.cap_outline.z;
+  float taper = drop.cap_outline.w;
+  if (irregularity + taper == 0.0) return place;
+  vec2 q = vec2(place.x / drop.head_stretch.w, place.y);
+  float phase = drop.beside_phase.y;
+  float angle = atan(q.y, q.x) + phase;
+  float ragged = irregularity * (0.07 * cos(2.0 * angle + 1.7 * phase) + 0.05 * cos(3.0 * angle) + 0.025 * cos(5.0 * angle - phase));
+  float narrow = 1.0 - 0.5 * taper * smoothstep(0.6, -1.0, q.x);
+  return vec2(place.x, place.y / narrow) / (1.0 + ragged);
 }
 
 // Share of a footprint (edges dx, dy) about a place on the glass in which the drop is seen: over its base's outline, from the dry side, or over
 // its cap's. Signed distances to both in base radii by the distance that the footprint spans across the edge.
-float coverage(Cap cap, vec2 base, vec3 d, vec2 dx, vec2 dy) {
+float coverage(Cap cap, vec2 place, vec3 d, vec2 dx, vec2 dy) {
   float inv = 1.0 / cap.stretch;
-  vec2 q = vec2(base.x * inv, base.y);
+  vec2 q = vec2(place.x * inv, place.y);
   float q_length = max(length(q), 1e-4);
   vec2 outline = vec2(q.x * inv, q.y) / q_length;
   float inside = d.z > 0.0 ? (1.0 - q_length) / max(length(vec2(dot(outline, dx), dot(outline, dy))), 1e-6) : -1e6;
-  if (meetCap(cap, vec3(base, 0.0), d).x * d.z > 0.0) {
+  if (meetCap(cap, vec3(place, 0.0), d).x * d.z > 0.0) {
     vec3 o = vec3(q, -cap.centre_z);
     vec3 e = vec3(d.x * inv, d.yz);
     vec3 nearest = o - e * (dot(o, e) / dot(e, e));
@@ -80,11 +84,11 @@ float coverage(Cap cap, vec2 base, vec3 d, vec2 dx, vec2 dy) {
 }
 
 // Light that comes along the view ray through a place on the glass, out of the drop. `footprint`: width of the pixel's rays there.
-vec3 lightThrough(Cap cap, vec2 base, vec3 d, float footprint) {
-  vec3 p = vec3(base, 0.0);
+vec3 lightThrough(Cap cap, vec2 place, vec3 d, float footprint) {
+  vec3 p = vec3(place, 0.0);
   vec3 meet = meetCap(cap, p, d);
   bool from_dry = d.z > 0.0;
-  float from_middle = length(vec2(base.x / cap.stretch, base.y));
+  float from_middle = length(vec2(place.x / cap.stretch, place.y));
   bool through_base = from_dry && from_middle < 1.0;
   bool on_cap = !through_base && meet.x * d.z > 0.0 && meet.z > 0.0;
   vec3 normal = vec3(0.0, 0.0, -1.0);
@@ -106,23 +110,29 @@ vec3 lightThrough(Cap cap, vec2 base, vec3 d, float footprint) {
 }
 
 void main() {
-  Cap cap = Cap(i.cap.x, i.cap.y, i.cap.z);
-  vec3 d = normalize(i.from_eye);
-  vec2 dx = dFdx(i.base);
-  vec2 dy = dFdy(i.base);
-  float count = float(i.samples);
+  SeenDrop drop = seen[which];
+  mat3 vehicle_from_drop = mat3(drop.head_stretch.xyz, cross(drop.normal_pixel.xyz, drop.head_stretch.xyz), drop.normal_pixel.xyz);
+  world_from_drop = mat3(frame.world_from_vehicle) * vehicle_from_drop;
+  Cap cap = Cap(drop.cap_outline.x, drop.cap_outline.y, drop.head_stretch.w);
+  vec3 middle_from_eye = (drop.position_radius.xyz - frame.eye_in_vehicle.xyz) * vehicle_from_drop;
+  vec3 d = normalize(middle_from_eye + vec3(base * drop.position_radius.w, 0.0));
+  eye_outside = d.z < 0.0;
+  vec2 dx = dFdx(base);
+  vec2 dy = dFdy(base);
+  int samples = int(drop.beside_phase.w);
+  float count = float(samples);
   float cover = 0.0;
   vec2 middle = vec2(0.0);  // of the covered part: there the pixel's one ray goes
-  for (int a = 0; a < i.samples * i.samples; ++a) {
-    vec2 offset = (vec2(a % i.samples, a / i.samples) + 0.5) / count - 0.5;
-    vec2 base = straighten(i.base + dx * offset.x + dy * offset.y);
-    float share = coverage(cap, base, d, dx / count, dy / count);
+  for (int a = 0; a < samples * samples; ++a) {
+    vec2 offset = (vec2(a % samples, a / samples) + 0.5) / count - 0.5;
+    vec2 place = straighten(drop, base + dx * offset.x + dy * offset.y);
+    float share = coverage(cap, place, d, dx / count, dy / count);
     cover += share;
-    middle += share * base;
+    middle += share * place;
   }
   if (cover <= 0.0) discard;
   float footprint = sqrt(abs(dx.x * dy.y - dx.y * dy.x) * max(abs(d.z), 0.05));
   vec3 light = lightThrough(cap, middle / cover, d, footprint);
-  float alpha = cover / (count * count) * i.outline.w;
+  float alpha = cover / (count * count) * drop.beside_phase.z;
   color = vec4(encode(frame.brightness * light) * alpha, alpha);
 }

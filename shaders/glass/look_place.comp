@@ -53,9 +53,10 @@ float reach(Cap cap, float slope) {
   return cap.centre_z + cap.radius * slope * s > 0.0 ? max(1.0, cap.centre_z * slope + cap.radius / s) : 1.0;
 }
 
-bool inSight(vec4 clip, float margin) {
-  return clip.w > 0.0 && max(abs(clip.x) * abs(frame.clip_from_eye[1][1] / frame.clip_from_eye[0][0]), abs(clip.y)) <
-                             clip.w * max(1.0, abs(frame.clip_from_eye[1][1] / frame.clip_from_eye[0][0])) + margin;
+// Whether a sphere about a point may be in the picture.
+bool inSight(vec4 clip, float radius_m) {
+  vec2 margin = radius_m * abs(vec2(frame.clip_from_eye[0][0], frame.clip_from_eye[1][1]));
+  return clip.w > -radius_m && all(lessThan(abs(clip.xy), abs(clip.w) + 1.5 * margin));
 }
 
 void main() {
@@ -83,7 +84,7 @@ void main() {
   float irregularity = irregularityOf(drop);
   float pixel = pixel_m / radius_m;
   float pad = 0.2 * irregularity + pixel / steep;
-  bool visible = inSight(frame.clip_from_eye * eye_position, 8.0 * radius_m * stretch * abs(frame.clip_from_eye[1][1]));
+  bool visible = inSight(frame.clip_from_eye * eye_position, 2.0 * radius_m * max(stretch, slope));
 
   SeenDrop o;
   o.position_radius = vec4(place.position_m, radius_m);

@@ -8,10 +8,11 @@ namespace rg::test {
 
 using shared::GlassDropRecord;
 
-FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, double size_m, int texels)
-    : gl_(gl), size_m_(size_m), texels_(texels) {
+FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, double size_m, int texels,
+                   bool mirrored)
+    : gl_(gl), size_m_(size_m), across_(mirrored ? -1.0 : 1.0), texels_(texels) {
   const double s = std::sin(angle_from_horizontal_rad), c = std::cos(angle_from_horizontal_rad);
-  right = {0.0, -1.0, 0.0};
+  right = {0.0, -across_, 0.0};
   up = {-c, 0.0, s};
   outward = {s, 0.0, c};
   const double texel_m = size_m / texels;
@@ -56,7 +57,7 @@ FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, do
 
 GlassDropRecord FlatPane::cap(double u_m, double v_m, double base_radius_m, double contact_rad) const {
   GlassDropRecord drop{};
-  drop.position_m = glm::vec2(u_m + 0.5 * size_m_, v_m + 0.5 * size_m_);
+  drop.position_m = glm::vec2(across_ * u_m + 0.5 * size_m_, v_m + 0.5 * size_m_);
   drop.heading = glm::vec2(0.0f, -1.0f);
   drop.base_radius_m = static_cast<float>(base_radius_m);
   drop.height_m = static_cast<float>(base_radius_m * std::tan(0.5 * contact_rad));

@@ -18,7 +18,9 @@ namespace rg::test {
 // forward and up.
 class FlatPane {
  public:
-  FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, double size_m, int texels);
+  // `mirrored`: the grid's u runs to the left.
+  FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, double size_m, int texels,
+           bool mirrored = false);
 
   void putDrops(std::span<const shared::GlassDropRecord> drops);
   // Thickness in m at a place (u, v) from the pane's middle.
@@ -32,6 +34,7 @@ class FlatPane {
  private:
   const GladGLContext& gl_;
   double size_m_;
+  double across_;  // +1: u runs to the right
   int texels_;
   gl::Buffer vertices_, indices_, drops_;
   gl::Texture2D position_, metric_, film_;

@@ -207,7 +207,8 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &pane_program, &place_program, &drop_program}) program->forget();
+  for (gl::Program* program : {&film_program, &pane_program, &place_program, &drop_program})
+    program->forget();
   frame_block.forget();
   seen_drops.forget();
   mesh_layout.forget();
