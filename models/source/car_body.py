@@ -13,7 +13,7 @@ HUB_Z = shape.TYRE_RADIUS_M
 
 def make(material_of):
     body = Part("body")
-    for panels in (flanks, nose, tail, top, glasshouse, cowl_and_frit, under, details):
+    for panels in (behind_joints, flanks, nose, tail, top, glasshouse, cowl_and_frit, under, details):
         panels(body)
     body.build(material_of)
     lamps(material_of)
@@ -52,6 +52,23 @@ def seam(points):
 
 def to_belt(curve, x):
     return np.concatenate([curve[curve[:, 1] < shape.belt_z(x) - 0.02], shape.belt_at(np.array([x]))])
+
+
+def behind_joints(body):
+    """Dark sheets close behind the panels, so that one does not look through the joints between them."""
+    def sheet(loop, mirror=True):
+        panel(body, "under", shape.side, [loop], 0.13, gap=0, edge=False, offset=-0.018, mirror=mirror)
+
+    box = lambda x0, x1, z0: np.concatenate([on_side([(x0, z0), (x1, z0)], 0.1), belt(x1, x0) - [0, 0.02]])
+    sheet(box(0.40, 2.26, 0.21))
+    sheet(box(2.26, 3.16, 0.72))
+    sheet(on_side([(3.16, 0.72), (2.985, 0.72), (3.0, 0.25), (3.12, 0.25)], 0.1))
+    s0 = shape.side_at(-0.40, 0.5)[0]
+    s = np.linspace(s0, 2 * shape.RING - s0, 60)
+    sheet(np.concatenate([np.stack([s, np.full(60, 0.25)], -1), np.stack([s[::-1], np.full(60, 0.965)], -1)]), mirror=False)
+    x = np.linspace(2.12, 3.28, 14)
+    half = np.stack([x, shape.bonnet_half(x) - 0.03], -1)
+    panel(body, "under", shape.bonnet, [np.concatenate([half, half[::-1] * [1, -1]])], 0.13, gap=0, edge=False, offset=-0.018)
 
 
 def flanks(body):
@@ -139,7 +156,7 @@ def closed_wider(loop, by):
 def mesh_grille(body, opening, rows):
     """Dark back wall and horizontal bars behind an opening."""
     low, high = opening.min(0), opening.max(0)
-    panel(body, "under", shape.side, [opening], 0.06, gap=-0.01, edge=False, offset=-0.07)
+    panel(body, "under", shape.side, [opening], 0.06, gap=-0.05, edge=False, offset=-0.07)
     for k in range(rows):
         z = low[1] + (k + 0.5) * (high[1] - low[1]) / rows
         s = np.linspace(low[0], high[0], 41)
@@ -282,7 +299,7 @@ def glasshouse(body):
     t = np.linspace(0, 1, 7)[:, None, None]
     control = 0.5 * (one + other) + 0.22 * np.linalg.norm(other - one, axis=1, keepdims=True) * unit(outward)
     strip = (1 - t)**2 * one + 2 * t * (1 - t) * control + t**2 * other
-    body.add(strip, flipped(grid_faces(7, len(one))), "paint", mirror=True)
+    body.add(strip, grid_faces(7, len(one)), "paint", mirror=True)
     foot = strip[:, 0]  # the A-pillar's foot runs out forward into the wing
     rows = []
     for t in np.linspace(0, 1, 6):
@@ -311,7 +328,7 @@ def cowl_and_frit(body):
         body.add(v, f, "black_gloss")
     frit(body, shape.screen, (0.032, 0.032, 0.055, 0.050), False)
     sensor_patch(body)
-    frit(body, shape.rear_screen, (0.07, 0.07, 0.10, 0.08), True)
+    frit(body, shape.rear_screen, (0.08, 0.08, 0.10, 0.08), True)
 
 
 def sensor_patch(body):
@@ -333,19 +350,19 @@ def frit(body, surface, margins, flip):
 
 
 def under(body):
-    z = 0.19
-    outline = [(x, y * 0.97, z) for x, y in np.stack(shape.outline(np.linspace(0, 2 * shape.RING, 60, endpoint=False)), -1)]
-    body.add(np.array(outline)[::-1], [tuple(range(60))[::-1]], "under")
+    z = 0.20
+    outline = [(shape.MIDDLE_X + 0.93 * (x - shape.MIDDLE_X), y * 0.88, z) for x, y in np.stack(shape.outline(np.linspace(0, 2 * shape.RING, 60, endpoint=False)), -1)]
+    body.add(np.array(outline), [tuple(range(60))[::-1]], "under")
     for axle in (0.0, shape.WHEELBASE_M):
         a = np.radians(np.linspace(-25, 205, 24))
-        arc = np.stack([axle + (ARCH - 0.004) * np.cos(a), np.zeros(24), HUB_Z + (ARCH - 0.004) * np.sin(a)], -1)
+        arc = np.stack([axle + (ARCH + 0.006) * np.cos(a), np.zeros(24), HUB_Z + (ARCH + 0.006) * np.sin(a)], -1)
         rows = [arc + [0, 0.905, 0], arc + [0, 0.62, 0]]
         near = np.stack([np.stack([p[0] * 1.0, 0, p[2]]) for p in arc])
         hull = shape.side(shape.side_at(arc[:, 0], arc[:, 2]))[:, 1]
-        rows[0] = np.stack([near[:, 0], hull - 0.010, near[:, 2]], -1)
+        rows[0] = np.stack([near[:, 0], hull - 0.006, near[:, 2]], -1)
         body.add(np.array(rows), flipped(grid_faces(2, 24)), "under", mirror=True)
         wall = np.concatenate([rows[1], [[axle, 0.62, HUB_Z - 0.2]]])
-        body.add(wall, [(k, k + 1, 24) for k in range(23)], "under", mirror=True)
+        body.add(wall, [(k + 1, k, 24) for k in range(23)], "under", mirror=True)
 
 
 def details(body):
@@ -390,7 +407,7 @@ def lamps(material_of):
     glass = Part("head_lamp_lenses")
     for sign in (1, -1):
         panel(glass, "lens", shape.side, [head_lamp_outline(-0.001) * [sign, 1]], 0.04, gap=0.001, radius=0.002, depth=0.004, edge_step=0.02)
-        panel(glass, "black_gloss", shape.side, [head_lamp_outline(0.012) * [sign, 1]], 0.04, gap=0, edge=False, offset=-0.055)
+        panel(glass, "black_gloss", shape.side, [head_lamp_outline(0.04) * [sign, 1]], 0.04, gap=0, edge=False, offset=-0.055)
     for sign in (1, -1):
         for k, y in enumerate((0.55, 0.64)):
             p = shape.side(np.array([[shape.s_of_nose_y(y), 0.624]]))[0] + [-0.035, 0, 0]

@@ -20,7 +20,7 @@ def floor(cabin):
     for x, z in ((-0.62, 0.42), (0.20, 0.40), (0.36, 0.29), (1.60, 0.29), (1.86, 0.34), (1.97, 0.62), (1.97, 0.90)):
         half = 0.62 if x < 0 else 0.80 if x < 1.8 else 0.74
         rows.append([(x, y * half, z) for y in (1, 0.5, 0.0, -0.5, -1)])
-    cabin.add(np.array(rows), flipped(grid_faces(len(rows), 5))[::1], "carpet")
+    cabin.add(np.array(rows), grid_faces(len(rows), 5), "carpet")
 
 
 def pillars(cabin):
@@ -35,20 +35,21 @@ def pillars(cabin):
     one = one - [0, 0.026, 0]
     v = np.linspace(0, 1, 20)
     foot = shape.screen(np.stack([np.ones(20), v], -1), -0.024) - np.array([0.5, 0, 0.87]) * 0.010
-    other = np.concatenate([evenly(foot, 25), other[25:-16] - [0, 0.02, 0.028], other[-16:] + [0.03, -0.02, -0.02]])
+    rear = shape.rear_screen(np.stack([np.full(20, 0.955), 1 - v], -1)) + np.array([0.81, 0, -0.58]) * 0.009
+    other = np.concatenate([evenly(foot, 25), other[25:-16] - [0, 0.02, 0.028], evenly(rear, 16)])
     inward = np.stack([np.zeros(len(one)), -np.ones(len(one)), np.full(len(one), -0.9)], -1)
     inward[:25, 0], inward[-16:, 0] = -0.55, 0.7
     t = np.linspace(0, 1, 7)[:, None, None]
     control = 0.5 * (one + other) + np.concatenate([np.full(25, 0.020), np.full(len(one) - 25, 0.02)])[:, None] * unit(inward)
     strip = (1 - t)**2 * one + 2 * t * (1 - t) * control + t**2 * other
-    cabin.add(strip, grid_faces(7, len(one)), "headliner", mirror=True)
+    cabin.add(strip, flipped(grid_faces(7, len(one))), "headliner", mirror=True)
     v, f = rounded_box((0.955, 0.700, 1.175), (0.085, 0.03, 0.40), 0.012, rotation((1, 0, 0), 23))
     cabin.add(v, f, "headliner", mirror=True)
 
 
 def roof_lining(cabin):
     lower = lambda p: shape.roof(p) - [0, 0, 0.028]
-    panel(cabin, "headliner", lower, [roof_outline()], 0.10, gap=0, edge=False, edge_step=0.05)
+    panel(cabin, "headliner", lower, [roof_outline()], 0.10, gap=0, edge=False, edge_step=0.05, flip=True)
     v, f = rounded_box((1.20, 0.0, 1.392), (0.16, 0.15, 0.026), 0.010, rotation((0, 1, 0), 9), 3)   # reading lamps
     cabin.add(v, f, "trim")
     for y in (0.04, -0.04):
@@ -78,9 +79,9 @@ def doors(cabin):
         zz = z + (top - 0.962) * shape.smooth(z, 0.7, 0.93) + 0.010
         rows.append(np.stack([x, y, zz], -1))
     rows = np.array(rows)
-    cabin.add(rows[:5], flipped(grid_faces(5, 66))[::1], "dash", mirror=True)
-    cabin.add(rows[4:8], flipped(grid_faces(4, 66)), "fabric_side", mirror=True)
-    cabin.add(rows[7:], flipped(grid_faces(len(rows) - 7, 66)), "trim", mirror=True)
+    cabin.add(rows[:5], grid_faces(5, 66), "dash", mirror=True)
+    cabin.add(rows[4:8], grid_faces(4, 66), "fabric_side", mirror=True)
+    cabin.add(rows[7:], grid_faces(len(rows) - 7, 66), "trim", mirror=True)
     for x0 in (1.47, 0.60):
         y = float(shape.belt_point(np.array([x0]))[0, 1])
         v, f = rounded_box((x0, y - 0.105, 0.815), (0.11, 0.012, 0.030), 0.005)
@@ -90,7 +91,7 @@ def doors(cabin):
     v, f = rounded_box((1.33, 0.655, 0.722), (0.13, 0.04, 0.012), 0.004, rotation((1, 0, 0), -8))
     cabin.add(v, f, "piano", mirror=True)
     v, f = lathe([(0.085, 0.0), (0.083, 0.006), (0.075, 0.007), (0.072, 0.003), (0.0, 0.006)], 32, (1.66, 0.727, 0.44), (0, -1, 0))
-    cabin.add(v, flipped(f), "black_plastic", mirror=True)
+    cabin.add(v, f, "black_plastic", mirror=True)
     sail = [(1.655, shape.belt_z(1.655) + 0.020), (1.86, shape.belt_z(1.86) + 0.016), (1.835, 1.008), (1.72, 1.075), (1.665, 1.06)]
     panel(cabin, "black_plastic", lambda p: glass_surface(p) - [0, 0.014, 0], [rounded(sail, 0.02)], 0.05, gap=0, radius=0.004, depth=0.014, mirror=True)
 
@@ -99,6 +100,9 @@ def tail_lining(cabin):
     y = np.linspace(-0.54, 0.54, 15)
     low = np.stack([np.full(15, -0.64), y, np.full(15, 0.42)], -1)
     mid = np.stack([np.full(15, -0.625), y, np.full(15, 0.965)], -1)
+    z = np.linspace(0.40, 0.995, 6)
+    near, far = np.stack([np.full(6, -0.37), np.full(6, 0.72), z], -1), np.stack([np.full(6, -0.63), np.full(6, 0.54), z], -1)
+    cabin.add(np.array([near, far]), grid_faces(2, 6), "trim", mirror=True)
     foot = shape.rear_screen(np.stack([y / 0.62, np.full(15, 0.04)], -1)) + [0.03, 0, 0]
     cabin.add(np.array([low, mid, foot]), grid_faces(3, 15), "trim")
 

@@ -64,7 +64,7 @@ def spokes(wheel):
         bar(wheel, [(s * 0.045, 0.010, -0.002), (s * 0.10, 0.016, -0.012), (s * 0.172, 0.030, -0.004)], [0.075, 0.058, 0.044], 0.016, "black_plastic")
         bar(wheel, [(s * 0.060, -0.022, 0.004), (s * 0.11, -0.014, -0.004), (s * 0.168, 0.004, 0.002)], [0.008, 0.007, 0.006], 0.014, "satin")
         for k, (x, y) in enumerate(((0.094, 0.030), (0.122, 0.034), (0.094, 0.008), (0.122, 0.013))):
-            v, f = rounded_box(on(np.array(s * x), np.array(y), np.array(-0.002)), (0.020, 0.022, 0.010), 0.003, np.stack([UP, RIGHT, AXIS], -1))
+            v, f = rounded_box(on(np.array(s * x), np.array(y), np.array(-0.002)), (0.020, 0.022, 0.010), 0.003, np.stack([UP, -RIGHT, AXIS], -1))
             wheel.add(v, f, "piano")
     bar(wheel, [(-0.02, -0.05, -0.004), (-0.022, -0.11, -0.010), (-0.024, -0.172, -0.002)], [0.016, 0.014, 0.014], 0.014, "satin")
     bar(wheel, [(0.02, -0.05, -0.004), (0.022, -0.11, -0.010), (0.024, -0.172, -0.002)], [0.016, 0.014, 0.014], 0.014, "satin")
@@ -80,9 +80,9 @@ def pad(wheel):
     wheel.add(np.array(rows), grid_faces(len(rows), len(shape2), wrap_cols=True), "leather")
     centre = on(np.array(0.0), np.array(0.0), np.array(0.031))
     v, f = lathe([(0.022, 0.0), (0.0215, 0.003), (0.017, 0.004), (0.016, 0.0025), (0.0, 0.0035)], 28, centre, AXIS)
-    wheel.add(v, flipped(f), "chrome")
+    wheel.add(v, f, "chrome")
     v, f = lathe([(0.040, -0.10), (0.048, -0.045)], 20, HUB, AXIS)
-    wheel.add(v, flipped(f), "black_plastic")
+    wheel.add(v, f, "black_plastic")
 
 
 def stalks(part):

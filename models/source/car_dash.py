@@ -59,7 +59,11 @@ def moulding(dash):
     d = np.concatenate([np.linspace(0, 0.42, 12), np.linspace(0.44, 0.60, 15), np.linspace(0.64, 1.26, 12)])
     y = np.unique(np.concatenate([np.linspace(-HALF, HALF, 57), DRIVER_Y + np.linspace(0.14, 0.18, 6), DRIVER_Y - np.linspace(0.14, 0.18, 6)]))
     dd, yy = np.meshgrid(d, y, indexing="ij")
-    dash.add(surface(np.stack([yy.ravel(), dd.ravel()], -1)), flipped(grid_faces(len(d), len(y))), "dash")
+    dash.add(surface(np.stack([yy.ravel(), dd.ravel()], -1)), grid_faces(len(d), len(y)), "dash")
+    u = np.linspace(-1, 1, 41)   # closes the gap to the glass, under the enamel band
+    up = shape.screen(np.stack([u, np.full(41, 0.04)], -1)) - np.array([0.5, 0, 0.87]) * 0.006
+    edge = surface(np.stack([np.clip(up[:, 1], -HALF, HALF), np.full(41, 0.004)], -1))
+    dash.add(np.array([up, edge]), grid_faces(2, 41), "black_plastic")
     # defroster slots along the glass, and a seam in the top pad
     for y0, y1 in ((-0.62, -0.06), (0.06, 0.62)):
         loop = rounded([(y0, 0.030), (y1, 0.030), (y1, 0.052), (y0, 0.052)], 0.010)
@@ -90,9 +94,9 @@ def hood(dash):
 
     outer = [arch(1.90, 0.115, 0.972, 0.984), arch(1.82, 0.145, 0.960, 1.004), arch(1.74, 0.165, 0.945, 1.027), arch(1.66, 0.176, 0.90, 1.043),
              arch(1.605, 0.180, 0.88, 1.050), arch(1.590, 0.180, 0.87, 1.049), arch(1.583, 0.179, 0.87, 1.046, 0.003)]
-    inner = [arch(1.583, 0.179, 0.87, 1.042, 0.006), arch(1.60, 0.179, 0.87, 1.038, 0.010), arch(1.668, 0.170, 0.87, 1.028, 0.012)]
-    dash.add(np.array(outer), grid_faces(len(outer), 33), "dash")
-    dash.add(np.array([outer[-1]] + inner), grid_faces(4, 33), "black_plastic")
+    inner = [arch(1.583, 0.179, 0.87, 1.042, 0.006), arch(1.60, 0.179, 0.87, 1.038, 0.010), arch(1.695, 0.172, 0.87, 1.026, 0.012)]
+    dash.add(np.array(outer), flipped(grid_faces(len(outer), 33)), "dash")
+    dash.add(np.array([outer[-1]] + inner), flipped(grid_faces(4, 33)), "black_plastic")
     n = unit(shape.EYE - [1.66, DRIVER_Y, 0.955])
     up = unit(np.cross(n, [0, 1.0, 0]))
     up = up if up[2] > 0 else -up
@@ -101,7 +105,7 @@ def hood(dash):
     corners = np.array([c + [0, half_w, 0] - up * half_h, c - [0, half_w, 0] - up * half_h, c - [0, half_w, 0] + up * half_h, c + [0, half_w, 0] + up * half_h])
     dash.add(corners, [(0, 1, 2, 3)], "dials", uvs=[(0, 0), (1, 0), (1, 1), (0, 1)])
     wall = inner[-1] + [0.001, 0, 0]
-    dash.add(wall, [tuple(range(33))], "black_plastic", np.tile([-1.0, 0, 0], (33, 1)))
+    dash.add(wall, [tuple(range(33))[::-1]], "black_plastic", np.tile([-1.0, 0, 0], (33, 1)))
     for y in (-0.090, 0.090):  # chromed rings of the two dials
         ring = c + n * 0.003 + np.array([0, y, 0]) + 0.0535 * (np.cos(np.linspace(0, 2 * np.pi, 40, endpoint=False))[:, None] * np.array([0, 1.0, 0])
                                                              + np.sin(np.linspace(0, 2 * np.pi, 40, endpoint=False))[:, None] * up)
@@ -157,9 +161,9 @@ def climate(dash):
     for y in (-0.095, 0.0, 0.095):
         p, n = at(y, 0.660, 0.004)
         v, f = lathe([(0.029, 0.0), (0.028, 0.004), (0.023, 0.006), (0.022, 0.022), (0.019, 0.025), (0.0, 0.025)], 28, p, n)
-        dash.add(v, flipped(f), "black_plastic")
+        dash.add(v, f, "black_plastic")
         v, f = lathe([(0.0245, 0.005), (0.0245, 0.010), (0.022, 0.011)], 28, p, n)
-        dash.add(v, flipped(f), "satin")
+        dash.add(v, f, "satin")
 
 
 def glove_box(dash):
@@ -199,11 +203,11 @@ def lever(dash):
     """Gear lever with gaiter."""
     base = np.array([1.255, 0.0, 0.528])
     v, f = lathe([(0.062, 0.0), (0.060, 0.006), (0.050, 0.012), (0.040, 0.032), (0.026, 0.050), (0.012, 0.072)], 24, base, unit([-0.10, 0, 1]))
-    dash.add(v, flipped(f), "leather")
+    dash.add(v, f, "leather")
     v, f = lathe([(0.066, 0.0), (0.067, 0.005), (0.060, 0.008)], 24, base, (0, 0, 1))
-    dash.add(v, flipped(f), "satin")
+    dash.add(v, f, "satin")
     top = base + np.array([-0.012, 0, 0.14])
     v, f = tube(np.array([base, top]), 0.006, 8)
     dash.add(v, f, "chrome")
     v, f = lathe([(0.010, -0.055), (0.016, -0.045), (0.022, -0.015), (0.024, 0.0), (0.021, 0.012), (0.010, 0.019), (0.0, 0.020)], 20, top, unit([-0.1, 0, 1]))
-    dash.add(v, flipped(f), "leather")
+    dash.add(v, f, "leather")

@@ -6,7 +6,7 @@ import numpy as np
 TABLE = {
     "paint": ((0.020, 0.085, 0.21), 0.55, 0.22, {}),
     "black_gloss": ((0.010, 0.010, 0.011), 0.0, 0.10, {}),
-    "black_plastic": ((0.028, 0.028, 0.029), 0.0, 0.55, {}),
+    "black_plastic": ((0.036, 0.036, 0.037), 0.0, 0.55, {}),
     "rubber": ((0.016, 0.016, 0.016), 0.0, 0.75, {}),
     "tyre": ((0.022, 0.022, 0.022), 0.0, 0.85, {}),
     "under": ((0.012, 0.012, 0.012), 0.0, 0.95, {}),
@@ -111,12 +111,12 @@ def weave(base, seed):
 
 
 PICTURES = {
-    "grain_dark": lambda: grain((0.034, 0.034, 0.036), 1),
-    "grain_mid": lambda: grain((0.052, 0.051, 0.051), 2),
-    "leather": lambda: grain((0.030, 0.029, 0.029), 3),
-    "weave": lambda: weave((0.075, 0.077, 0.082), 4),
-    "weave_dark": lambda: weave((0.040, 0.040, 0.042), 5),
-    "felt": lambda: tinted((0.42, 0.415, 0.40), 1 + 0.07 * noise(256, [(100, 1), (30, 0.5)], 6)),
+    "grain_dark": lambda: grain((0.056, 0.056, 0.059), 1),
+    "grain_mid": lambda: grain((0.095, 0.093, 0.091), 2),
+    "leather": lambda: grain((0.045, 0.044, 0.043), 3),
+    "weave": lambda: weave((0.105, 0.108, 0.115), 4),
+    "weave_dark": lambda: weave((0.062, 0.062, 0.066), 5),
+    "felt": lambda: tinted((0.56, 0.55, 0.53), 1 + 0.07 * noise(256, [(100, 1), (30, 0.5)], 6)),
     "carpet": lambda: tinted((0.028, 0.028, 0.030), 1 + 0.30 * noise(256, [(100, 1), (40, 0.5)], 7)),
     "dials": lambda: __import__("car_pictures").dials(),
     "screen": lambda: __import__("car_pictures").screen(),

@@ -35,7 +35,9 @@ def padded(part, spine, normals, half, thick, bolster, material, side_material):
     n = np.concatenate([normals, np.repeat(normals[-1:], 14, 0), normals[-2::-1], np.repeat(normals[:1], 13, 0)])
     centre = border.mean(0)
     rows = [border, border - n * 0.02 + 0.012 * unit(border - centre), border - n * thick]
-    part.add(np.array(rows), grid_faces(3, len(border), wrap_cols=True), side_material)
+    part.add(np.array(rows), flipped(grid_faces(3, len(border), wrap_cols=True)), side_material)
+    back = face - (normals * thick)[:, None]
+    part.add(back[:, [0, -1]], grid_faces(n_rows, 2), side_material)
 
 
 def curve(points, per=5):

@@ -23,7 +23,7 @@ def wheel_mesh(name, sign, material_of):
     tyre = [(0.213, -0.098), (0.240, -0.105), (0.285, -0.104), (0.306, -0.092), (0.316, -0.070), (R, -0.035), (R, -0.002), (R - 0.006, 0.0), (R, 0.002),
             (R, 0.035), (0.316, 0.070), (0.306, 0.092), (0.285, 0.104), (0.240, 0.105), (0.213, 0.098)]
     v, f = lathe(tyre, 48, (0, 0, 0), axis)
-    part.add(v, flipped(f), "tyre")
+    part.add(v, f, "tyre")
     rim = [(0.218, 0.101), (0.214, 0.103), (0.206, 0.098), (0.203, 0.080), (0.198, 0.0), (0.196, -0.09)]
     v, f = lathe(rim, 48, (0, 0, 0), axis)
     part.add(v, f, "alloy")
@@ -32,16 +32,16 @@ def wheel_mesh(name, sign, material_of):
     part.add(v, f, "under")
     disc = [(0.145, 0.0), (0.145, 0.022), (0.08, 0.022), (0.075, 0.035), (0.0, 0.036)]
     v, f = lathe(disc, 32, (0, 0, 0), axis)
-    part.add(v, flipped(f), "steel")
+    part.add(v, f, "steel")
     hub = [(0.062, 0.04), (0.058, 0.066), (0.045, 0.078), (0.030, 0.080), (0.028, 0.084), (0.0, 0.085)]
     v, f = lathe(hub, 30, (0, 0, 0), axis)
-    part.add(v, flipped(f), "alloy")
+    part.add(v, f, "alloy")
     for k in range(5):
         for half in (-1, 1):
             spoke(part, 2 * np.pi * k / 5, half, sign)
         a = 2 * np.pi * (k + 0.5) / 5
         v, f = lathe([(0.008, 0.0), (0.008, 0.010), (0.0, 0.011)], 8, (0.043 * np.sin(a), sign * 0.073, 0.043 * np.cos(a)), axis)
-        part.add(v, flipped(f), "steel")
+        part.add(v, f, "steel")
     o = part.build(material_of)
     mesh = o.data
     bpy.data.objects.remove(o)
@@ -58,4 +58,4 @@ def spoke(part, angle, half, sign):
     rows = [[(rr * np.sin(angle) + (sp + w * s) * np.cos(angle), sign * (fc + h), rr * np.cos(angle) - (sp + w * s) * np.sin(angle)) for s, h in section]
             for rr, sp, fc, w in zip(r, spread, face, width)]
     faces = grid_faces(len(r), len(section))
-    part.add(np.array(rows), faces if sign > 0 else flipped(faces), "alloy")
+    part.add(np.array(rows), flipped(faces) if sign > 0 else faces, "alloy")
