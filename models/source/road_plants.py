@@ -68,8 +68,8 @@ def _broadleaf(seed, height, wide, cards, tile="broad", dark="broad_dark"):
 def _birch(seed):
     mesh, rng = Mesh(), np.random.default_rng(seed)
     _trunk(mesh, rng, 10.5, 0.13, "bark_birch", 4, 1.0)
-    for level, wide in ((4.6, 1.5), (6.6, 1.9), (8.6, 1.6), (10.4, 1.0)):
-        _crown(mesh, rng, (rng.normal(0, 0.2), rng.normal(0, 0.2), level), (wide, wide, 1.5), 20, 0.85, "birch", "broad")
+    for level, wide in ((3.9, 1.4), (5.3, 2.0), (6.8, 2.1), (8.3, 1.7), (9.7, 1.2), (10.9, 0.7)):
+        _crown(mesh, rng, (rng.normal(0, 0.3), rng.normal(0, 0.3), level), (wide, wide, 1.2), 19, 0.78, "birch", "broad")
     return mesh.data(f"birch_{seed}")
 
 
@@ -107,7 +107,7 @@ def _spruce_core(mesh, height):
 
 def _bush(seed, wide, tall):
     mesh, rng = Mesh(), np.random.default_rng(seed)
-    _crown(mesh, rng, (0, 0, tall * 0.42), (wide, wide, tall * 0.5), 26, wide * 0.52, "bush", "broad_dark")
+    _crown(mesh, rng, (0, 0, tall * 0.42), (wide, wide, tall * 0.5), 44, wide * 0.40, "bush", "broad_dark")
     return mesh.data(f"bush_{seed}")
 
 
@@ -120,6 +120,8 @@ def _hedge():
         for k in range(2):
             p, q = a + (b - a) * k / 2, a + (b - a) * (k + 1) / 2
             mesh.quad([(p, y, -0.3), (q, y, -0.3), (q, y, 1.35), (p, y, 1.35)], "leaves", (u0, v0, u1, v1))
+    for x, y in ((-2.0, 0.4), (2.0, -0.4)):
+        mesh.quad([(x, y, -0.3), (x, -y, -0.3), (x, -y, 1.35), (x, y, 1.35)], "leaves", (u0, v0, u1, v1))
     mesh.quad([(-2, -0.4, 1.35), (2, -0.4, 1.35), (2, 0.4, 1.35), (-2, 0.4, 1.35)], "leaves", (u0, v0, u1, v1))
     for k in range(16):
         spot = np.array([rng.uniform(-2, 2), rng.choice([-0.42, 0.42, 0.0]), 0])

@@ -24,12 +24,13 @@ PLOTS = [(124, 17, "cottage", 0), (143, 18, "white", 0), (166, 17, "ochre", 1), 
 def _shell(mesh, walls, roof, w, depth, eaves, rise):
     """Walls with gables, and a roof with eaves; the street front looks along -y."""
     x, y = w / 2, depth / 2
-    mesh.box(_WORLD, (-x, -y, 0.35), (x, y, eaves), walls, 3.0, skip="zZ")
+    tile_m = 1.3 if walls == "brick" else 3.0
+    mesh.box(_WORLD, (-x, -y, 0.35), (x, y, eaves), walls, tile_m, skip="zZ")
     mesh.box(_WORLD, (-x - 0.04, -y - 0.04, -1.5), (x + 0.04, y + 0.04, 0.4), "concrete_dark", 3.0, skip="z")
     for side in (-1, 1):
         gable = np.array([(side * x, -side * y, eaves), (side * x, side * y, eaves), (side * x, 0, eaves + rise)])
         order = [(0, 1, 2)]
-        mesh.add(gable, order, walls, gable[:, 1:] / 3.0)
+        mesh.add(gable, order, walls, gable[:, 1:] / tile_m)
         _roof_slope(mesh, roof, x + 0.45, y, eaves, rise, side)
 
 
