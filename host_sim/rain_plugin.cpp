@@ -9,7 +9,8 @@ namespace host {
 namespace {
 
 void log(void*, int32_t level, uint32_t message, const char* text) {
-  if (level <= RG_LOG_WARNING) std::fprintf(stderr, "rainglass %u: %s\n", message, text);
+  // Errors come back as results, with the same words.
+  if (level == RG_LOG_WARNING) std::fprintf(stderr, "rainglass %u: %s\n", message, text);
 }
 
 std::filesystem::path besideThisProgram() {
