@@ -95,6 +95,12 @@ void RainPlugin::addCar(const CarView& car) {
     info.vertex_count = static_cast<uint32_t>(p.positions_m.size());
     info.index_count = static_cast<uint32_t>(p.indices.size());
     info.glass = static_cast<int32_t>(p.glass);
+    // What no wiper clears is looked through less: a quarter of the cells and drops.
+    const bool wiped = std::ranges::any_of(car.wipers, [&](const WiperView& w) { return w.pane == p.name; });
+    if (!wiped && car.panes.size() > 1) {
+      info.texel_m *= 2.0;
+      info.max_drops /= 4;
+    }
     panes_.push_back(p.name);
     check(api_->set_pane(instance_, static_cast<uint32_t>(panes_.size()), &info), "set_pane");
   }

@@ -17,7 +17,7 @@ void identity(double m[16]) {
 
 void defaultCreateInfo(rg_create_info* out) {
   clear(out);
-  out->max_drops = 65536;
+  out->max_drops = 131072;
   out->seed = 1;
 }
 

@@ -95,7 +95,7 @@ typedef struct rg_instance rg_instance;
 
 typedef struct rg_create_info {
   uint32_t struct_size;
-  uint32_t max_drops;     /* capacity for falling drops, 1000 .. 4000000; default 65536. A full buffer thins uniformly and says so */
+  uint32_t max_drops;     /* capacity for falling drops, 1000 .. 4000000; default 131072. A full buffer thins uniformly and says so */
   uint64_t seed;          /* all randomness is a hash of it; default 1 */
   rg_log_fn log;          /* may be null; called on the thread of the call that logs */
   void* log_user;
