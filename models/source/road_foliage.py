@@ -91,10 +91,10 @@ def _blades(colour, count, seed, width):
 
 
 def leaves():
-    tiles = {"broad": _cluster((0.35, 0.42, 0.19), 34, 24, 1), "broad_dark": _cluster((0.20, 0.255, 0.125), 34, 24, 2),
-             "birch": _cluster((0.43, 0.46, 0.21), 30, 18, 3), "bush": _cluster((0.31, 0.37, 0.19), 60, 20, 4, 0.48),
-             "spruce": _spruce((0.215, 0.285, 0.20), 5), "spruce_dark": _spruce((0.145, 0.20, 0.15), 6),
-             "grass": _blades((0.40, 0.455, 0.235), 120, 7, 2.6), "reed": _blades((0.52, 0.485, 0.31), 80, 8, 2.2)}
+    tiles = {"broad": _cluster((0.45, 0.52, 0.27), 34, 24, 1), "broad_dark": _cluster((0.30, 0.36, 0.19), 34, 24, 2),
+             "birch": _cluster((0.53, 0.56, 0.30), 30, 18, 3), "bush": _cluster((0.42, 0.48, 0.28), 60, 20, 4, 0.48),
+             "spruce": _spruce((0.31, 0.38, 0.285), 5), "spruce_dark": _spruce((0.22, 0.285, 0.22), 6),
+             "grass": _blades((0.48, 0.53, 0.31), 120, 7, 2.6), "reed": _blades((0.52, 0.485, 0.31), 80, 8, 2.2)}
     out = np.zeros((512, 1024, 4))
     for name, index in LEAF_TILE.items():
         row, column = index // 4 * 256, index % 4 * 256
@@ -112,7 +112,7 @@ def forest():
             _forest_tree(canvas, rng, x + rng.uniform(-16, 16), layer)
     canvas[h - 70:, :, :3] *= np.linspace(1, 0.62, 70)[:, None, None]
     bare = canvas[h - 90:, :, 3] == 0
-    canvas[h - 90:][bare] = (0.13, 0.145, 0.10, 1.0)
+    canvas[h - 90:][bare] = (0.17, 0.185, 0.135, 1.0)
     return np.clip(_spread_colour(canvas), 0, 1)
 
 
@@ -121,7 +121,7 @@ def _forest_tree(canvas, rng, x, layer):
     h, w = canvas.shape[:2]
     spruce = rng.random() < 0.3
     top = rng.uniform(10, 46) + 30 * layer
-    tones = ((0.20, 0.27, 0.195), (0.33, 0.395, 0.20), (0.285, 0.355, 0.18), (0.375, 0.40, 0.205))
+    tones = ((0.28, 0.35, 0.265), (0.42, 0.485, 0.275), (0.375, 0.445, 0.255), (0.465, 0.49, 0.28))
     colour = np.array(tones[0 if spruce else rng.integers(1, 4)]) * (0.80 + 0.09 * layer)
     half = rng.uniform(15, 20) if spruce else rng.uniform(26, 40)
     for k in range(42):

@@ -146,14 +146,14 @@ def shelter(name, points):
 _LAMP_DATA = {}
 
 
-def lamp(name, frame, candela, reach_m, colour, spot_deg=150.0):
+def lamp(name, frame, candela, reach_m, colour, spot_deg=150.0, blend=0.6):
     """A street light shining down from the frame's origin (KHR_lights_punctual spot, cone spot_deg wide)."""
-    key = (candela, reach_m, colour, spot_deg)
+    key = (candela, reach_m, colour, spot_deg, blend)
     if key not in _LAMP_DATA:
         light = bpy.data.lights.new(f"street_{len(_LAMP_DATA)}", "SPOT")
         # The exporter writes candela = W / 4 pi * 683 lm/W.
         light.energy = candela * 4 * np.pi / 683.0
-        light.color, light.spot_size, light.spot_blend = colour, np.radians(spot_deg), 0.6
+        light.color, light.spot_size, light.spot_blend = colour, np.radians(spot_deg), blend
         light.use_custom_distance, light.cutoff_distance, light.shadow_soft_size = True, reach_m, 0.15
         _LAMP_DATA[key] = light
     return place(name, _LAMP_DATA[key], (frame[0], np.eye(3)), extras={"type": "light", "role": "street"})

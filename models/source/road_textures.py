@@ -81,26 +81,26 @@ def tiles():
 def grass():
     n = 512
     blades = 0.6 * noise(n, 1.0, 20, (0.4, 1)) + 0.5 * noise(n, 1.2, 21, (1, 0.5))
-    green = tint(0.16 * blades + 0.08 * noise(n, 9, 22), (0.275, 0.325, 0.165))
+    green = tint(0.16 * blades + 0.08 * noise(n, 9, 22), (0.385, 0.43, 0.25))
     dry = np.clip(0.5 + 0.5 * noise(n, 12, 23) + 0.35 * blades, 0, 1)[..., None] ** 2
     return np.clip(green + dry * np.array([0.07, 0.045, 0.01]), 0, 1)
 
 
 def meadow():
     n = 256
-    return tint(0.10 * noise(n, 1.2, 24) + 0.08 * noise(n, 8, 25), (0.30, 0.355, 0.185))
+    return tint(0.10 * noise(n, 1.2, 24) + 0.08 * noise(n, 8, 25), (0.40, 0.455, 0.27))
 
 
 def crop():
     n = 256
     rows = np.sin(np.arange(n) / n * 2 * np.pi * 16)[None, :]
-    return tint(0.08 * rows + 0.10 * noise(n, 1.1, 26, (0.4, 1)) + 0.05 * noise(n, 12, 27), (0.47, 0.45, 0.24))
+    return tint(0.08 * rows + 0.10 * noise(n, 1.1, 26, (0.4, 1)) + 0.05 * noise(n, 12, 27), (0.55, 0.52, 0.32))
 
 
 def soil():
     n = 256
     rows = np.sin(np.arange(n) / n * 2 * np.pi * 12)[None, :]
-    return tint(0.10 * rows + 0.14 * noise(n, 1.3, 28) + 0.05 * noise(n, 10, 29), (0.32, 0.255, 0.19))
+    return tint(0.10 * rows + 0.14 * noise(n, 1.3, 28) + 0.05 * noise(n, 10, 29), (0.40, 0.33, 0.26))
 
 
 def gravel():
@@ -120,7 +120,7 @@ def far_woods():
     """Wooded hills far off, already paled by the air between."""
     n = 256
     crowns = noise(n, 2.0, 36) + 0.6 * noise(n, 6, 37)
-    return tint(0.10 * crowns + 0.05 * noise(n, 24, 38), (0.33, 0.385, 0.36))
+    return tint(0.10 * crowns + 0.05 * noise(n, 24, 38), (0.37, 0.43, 0.38))
 
 
 # --- buildings -------------------------------------------------------------------------------------------------------
@@ -151,12 +151,12 @@ def roof():
     down = (y % 32) / 32
     tone = np.random.default_rng(45).standard_normal((8, 8))[row % 8, (((x + 16 * (row % 2)) % n) // 32) % 8]
     shade = 0.10 * np.sin(across * np.pi) + 0.10 * down - 0.30 * (down > 0.93) - 0.12 * ((across < 0.06))
-    return tint(shade + 0.09 * tone + 0.05 * noise(n, 1.5, 46) + 0.07 * noise(n, 18, 47), (0.40, 0.25, 0.20))
+    return tint(shade + 0.09 * tone + 0.05 * noise(n, 1.5, 46) + 0.07 * noise(n, 18, 47), (0.48, 0.305, 0.25))
 
 
 def bark():
     n = 128
-    return tint(0.22 * noise(n, 1.2, 48, (6, 1)) + 0.1 * noise(n, 5, 49), (0.27, 0.235, 0.195))
+    return tint(0.22 * noise(n, 1.2, 48, (6, 1)) + 0.1 * noise(n, 5, 49), (0.34, 0.30, 0.255))
 
 
 def paint():

@@ -101,7 +101,7 @@ def _lamps():
         for d in (-2.3, 2.3):
             place(f"tunnel_lamp_{s:.0f}_{'r' if d < 0 else 'l'}", data, route.frame(s, d, 5.15))
     for k, s in enumerate(np.linspace(route.TUNNEL_IN + 6, route.TUNNEL_OUT - 6, 12)):
-        lamp(f"tunnel_light_{k}", route.frame(s, -1.2 if k % 2 else 1.2, 5.05), 3000.0, 26.0, (1.0, 0.84, 0.62), 165.0)
+        lamp(f"tunnel_light_{k}", route.frame(s, -1.2 if k % 2 else 1.2, 5.05), 3000.0, 26.0, (1.0, 0.84, 0.62), 172.0, 0.3)
     assert length > 150
 
 
