@@ -26,13 +26,15 @@ def floor(cabin):
 def pillars(cabin):
     """Trim behind the glasshouse frame: flank lining with the windows' openings, and a padded strip to windscreen and roof."""
     inner = lambda p: shape.glasshouse(p) - [0, 0.026, 0]
-    outline = spline(shape.PILLAR_A + shape.ROOF_RAIL + shape.PILLAR_C, 6)
+    ahead = 0.06  # the rear window's sides lie this far before the flanks' rear edges
+    outline = spline(shape.PILLAR_A + shape.ROOF_RAIL + [(x + ahead, z) for x, z in shape.PILLAR_C], 6)
     xs = np.linspace(outline[-1, 0], outline[0, 0], 40)[1:-1]
     low = np.stack([xs, shape.belt_z(xs) - 0.01], -1)
     loops = [np.concatenate([outline, low]), window_outline("front", 0.004), window_outline("rear", 0.004)]
     panel(cabin, "headliner", inner, loops, 0.07, gap=0, radius=0.006, depth=0.016, edge_step=0.045, mirror=True, edge="holes")
     one, other = frame_rails()
     one = one - [0, 0.026, 0]
+    one[-16:, 0] += ahead
     v = np.linspace(0, 1, 20)
     foot = shape.screen(np.stack([np.ones(20), v], -1), -0.024) - np.array([0.5, 0, 0.87]) * 0.010
     rear = shape.rear_screen(np.stack([np.full(20, 0.955), 1 - v], -1)) + np.array([0.81, 0, -0.58]) * 0.009
