@@ -12,14 +12,12 @@ layout(location = 0) out vec4 color;
 
 mat3 world_from_drop;
 bool eye_outside;
+vec3 cabin;  // what an eye outside sees close behind the glass
 
-// Light that arrives from where a ray leaves to, drop's frame. An eye outside sees the cabin in the picture, close behind the glass.
+// Light that arrives from where a ray leaves to, drop's frame.
 vec3 arriving(vec3 direction, float spread_rad) {
-  if (direction.z < 0.0 && eye_outside) {
-    vec2 at = (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw;
-    return decode(textureLod(picture, at, 3.0).rgb);
-  }
-  return surroundingsOfGlass(world_from_drop * direction, world_from_drop[2], spread_rad);
+  vec3 light = surroundingsOfGlass(world_from_drop * direction, world_from_drop[2], spread_rad);
+  return eye_outside && direction.z < 0.0 ? cabin : light;
 }
 
 // Follows a ray that has entered. At each face a share leaves by Fresnel, the rest stays. A pixel's bundle of rays is `footprint` wide and
@@ -117,6 +115,7 @@ void main() {
   vec3 middle_from_eye = (drop.position_radius.xyz - frame.eye_in_vehicle.xyz) * vehicle_from_drop;
   vec3 d = normalize(middle_from_eye + vec3(base * drop.position_radius.w, 0.0));
   eye_outside = d.z < 0.0;
+  cabin = decode(textureLod(picture, (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw, 3.0).rgb);
   vec2 dx = dFdx(base);
   vec2 dy = dFdy(base);
   int samples = int(drop.beside_phase.w);

@@ -21,7 +21,7 @@ layout(std140, binding = 0) uniform Frame {
   float brightness;
   float blur;
   float fine_radius_px;     // drops smaller than this are sampled four times a pixel
-  uint has_environment;
+  uint unused;
   uint srgb;                // the target and `picture` are encoded
   uint internal_reflections;
   uint dry_reflection;

@@ -32,15 +32,15 @@ vec3 pictureAt(vec3 direction_eye) {
 
 // `spread_rad`: angle between what neighbouring pixels see, for the choice of mips.
 vec3 surroundings(vec3 direction_world, float spread_rad) {
-  if (frame.has_environment != 0u) {
-    float lod = log2(max(spread_rad * frame.environment_texels_per_rad, 1e-6));
-    return frame.exposure * textureLod(environment, direction_world, lod).rgb;
-  }
+#ifdef ENVIRONMENT  // a variant, not a branch: software GL runs both sides of one
+  float lod = log2(max(spread_rad * frame.environment_texels_per_rad, 1e-6));
+  return frame.exposure * textureLod(environment, direction_world, lod).rgb;
+#else
   vec3 far = skyAndGround(direction_world.z);
   vec3 at = pictureAt(mat3(frame.eye_from_world) * direction_world);
-  if (at.z <= 0.0) return far;
   float lod = log2(max(spread_rad * frame.pixels_per_rad, 1e-6));
   return mix(far, decode(textureLod(picture, at.xy, lod).rgb), at.z);
+#endif
 }
 
 // As surroundings, but light from the cabin's side of the glass is as much darker as the cabin is. The cabin begins behind the glass's plane.

@@ -23,7 +23,8 @@ FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, do
     for (const double x : {p.x, p.y, p.z, outward.x, outward.y, outward.z, u, v})
       mesh.push_back(static_cast<float>(x));
   }
-  const std::vector<uint32_t> triangles{0, 2, 1, 1, 2, 3};
+  const std::vector<uint32_t> triangles =
+      mirrored ? std::vector<uint32_t>{0, 1, 2, 1, 3, 2} : std::vector<uint32_t>{0, 2, 1, 1, 2, 3};
   vertices_ = gl::Buffer(gl, std::span<const float>(mesh));
   indices_ = gl::Buffer(gl, std::span<const uint32_t>(triangles));
 

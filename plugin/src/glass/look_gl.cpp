@@ -3,7 +3,9 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/constants.hpp>
+#include <string>
 #include <vector>
 
 #include "gl/objects.h"
@@ -20,7 +22,9 @@ constexpr size_t kSeenDropBytes = 96;  // shaders/optics/seen_drop.glsl
 constexpr int kPlaceGroup = 64;        // drops in a group of look_place.comp
 constexpr float kFineRadius_px = 6.0f;
 
-enum Unit : GLuint { kPicture = 0, kEnvironment = 1, kFirst = 2, kSecond = 3, kThird = 4 };
+const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
+
+enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4 };
 
 // As in shaders/optics/look_frame.glsl (std140).
 struct FrameBlock {
@@ -31,7 +35,7 @@ struct FrameBlock {
   int32_t drop_count;
   float exposure, pixels_per_rad, environment_texels_per_rad, cabin_share;
   float brightness, blur, fine_radius_px;
-  uint32_t has_environment;
+  uint32_t unused;
   uint32_t srgb, internal_reflections, dry_reflection;
   float film_unit_m3;
 };
@@ -53,9 +57,12 @@ struct GlassLook::Parts {
   explicit Parts(const GladGLContext& context)
       : gl(context),
         film_program(gl, {"glass/look_screen.vert", "glass/look_film.frag"}),
-        pane_program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
+        inside_program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
+        outside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
+                         gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kEnvironment)},
         place_program(gl, {"glass/look_place.comp"}),
-        drop_program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}),
+        drop_programs{gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}),
+                      gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}, kEnvironment)},
         frame_block(gl, sizeof(FrameBlock)),
         mesh_layout(gl),
         no_layout(gl),
@@ -87,14 +94,18 @@ struct GlassLook::Parts {
   }
 
   const GladGLContext& gl;
-  gl::Program film_program, pane_program, place_program, drop_program;
+  gl::Program film_program, inside_program;
+  std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
+  gl::Program place_program;
+  std::array<gl::Program, 2> drop_programs;
   gl::Buffer frame_block, seen_drops;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, mipped, exact;
   gl::TextureCube no_environment;  // black
   gl::Texture2D no_film;           // a dry texel
   Canvases films;                  // of look_film.frag
-  uint32_t film_seen = 0;          // for the pane being drawn
+  size_t with_environment = 0;
+  uint32_t film_seen = 0;  // for the pane being drawn
   LookPicture picture;
   LookCapture capture;
 };
@@ -123,7 +134,6 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.brightness = settings.brightness;
   block.blur = settings.blur;
   block.fine_radius_px = kFineRadius_px;
-  block.has_environment = environment != 0;
   block.srgb = target.srgb;
   block.internal_reflections = static_cast<uint32_t>(std::clamp(settings.internal_reflections, 0, 6));
   block.dry_reflection = settings.dry_reflection;
@@ -137,8 +147,9 @@ void GlassLook::Parts::bindLook(const LookLight& light) {
   gl.BindTextureUnit(kPicture, picture.texture());
   gl.BindSampler(kPicture, mipped.name());
   const uint32_t environment = environmentOf(light);
-  gl.BindTextureUnit(kEnvironment, environment != 0 ? environment : no_environment.name());
-  gl.BindSampler(kEnvironment, mipped.name());
+  with_environment = environment != 0 ? 1 : 0;
+  gl.BindTextureUnit(kSurroundings, environment != 0 ? environment : no_environment.name());
+  gl.BindSampler(kSurroundings, mipped.name());
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
@@ -149,6 +160,10 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(view.reversed_depth ? GL_GEQUAL : GL_LEQUAL);
   gl.DepthMask(GL_FALSE);
+  // A picture drawn mirrored turns faces round.
+  const double handed =
+      glm::determinant(glm::dmat3(view.eyeFromWorld)) * view.clipFromEye[0][0] * view.clipFromEye[1][1];
+  gl.FrontFace(handed < 0.0 ? GL_CW : GL_CCW);
   gl.Disable(GL_CULL_FACE);
   gl.Disable(GL_SCISSOR_TEST);
   gl.BlendEquation(GL_FUNC_ADD);
@@ -180,8 +195,16 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
   mesh_layout.bindIndices(pane.index_buffer);
   gl.BindVertexArray(mesh_layout.name());
-  pane_program.use();
+  // Front faces are the outer side; the eye sees one pane from inside and, at its far end, another from
+  // outside.
+  gl.Enable(GL_CULL_FACE);
+  gl.CullFace(GL_FRONT);
+  inside_program.use();
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  gl.CullFace(GL_BACK);
+  outside_programs[with_environment].use();
+  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  gl.Disable(GL_CULL_FACE);
 }
 
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
@@ -202,13 +225,16 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
 void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.Enable(GL_BLEND);
   gl.BindVertexArray(no_layout.name());
-  drop_program.use();
+  drop_programs[with_environment].use();
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &pane_program, &place_program, &drop_program})
-    program->forget();
+  for (gl::Program* program : {&film_program, &inside_program, &place_program}) program->forget();
+  for (size_t k : {0u, 1u}) {
+    outside_programs[k].forget();
+    drop_programs[k].forget();
+  }
   frame_block.forget();
   seen_drops.forget();
   mesh_layout.forget();
