@@ -32,7 +32,7 @@ PLAIN = {
 }
 # name: texture, both sides drawn. One-sided ones come with both windings where both are seen: each side keeps its normals.
 MASKED = {"leaves": ("leaves", True), "leaves_upright": ("leaves", False), "forest": ("forest", False)}
-GLOWING = {"lamp_warm": (1.0, 0.80, 0.52), "lamp_white": (1.0, 0.97, 0.90), "exit_green": (0.006, 0.10, 0.03), "tail_red": (0.4, 0.01, 0.01)}
+GLOWING = {"lamp_warm": (1.0, 0.80, 0.52), "lamp_white": (1.0, 0.97, 0.90), "exit_green": (0.006, 0.10, 0.03), "tail_red": (0.4, 0.01, 0.01), "canopy_white": (0.035, 0.034, 0.032)}
 ALPHA = {"leaves": road_foliage.leaves, "forest": road_foliage.forest}
 
 

@@ -35,7 +35,7 @@ def _crown(mesh, rng, middle, radii, cards, size, tile, dark):
         a = k * 2.39996 + rng.normal(0, 0.2)
         out = np.array([np.sqrt(1 - z * z) * np.cos(a), np.sqrt(1 - z * z) * np.sin(a), z])
         depth = rng.uniform(0.35, 0.6) if k % 4 == 0 else rng.uniform(0.72, 1.0)
-        right, up = _basis(out, rng, 0.35)
+        right, up = _basis(out, rng, 0.65)
         half = size * rng.uniform(0.8, 1.2)
         _card(mesh, middle + out * radii * depth, right * half, up * half, dark if k % 4 == 0 or z < -0.55 else tile, middle)
 
@@ -60,8 +60,8 @@ def _broadleaf(seed, height, wide, cards, tile="broad", dark="broad_dark"):
         t = k / (parts - 1)
         a = k * 2.39996 + rng.normal(0, 0.3)
         off = np.array([np.cos(a), np.sin(a), 0]) * wide * 0.58 * np.sqrt(1 - t) * rng.uniform(0.75, 1.15)
-        level, size = height * (0.42 + 0.42 * t + 0.03 * rng.normal()), wide * rng.uniform(0.40, 0.56) * (1 - 0.25 * t)
-        _crown(mesh, rng, off + [0, 0, level], (size, size, 0.8 * size), cards // parts, 0.62 * size, tile, dark)
+        level, size = height * (0.42 + 0.42 * t + 0.03 * rng.normal()), wide * rng.uniform(0.43, 0.58) * (1 - 0.25 * t)
+        _crown(mesh, rng, off + [0, 0, level], (size, size, 0.8 * size), cards // parts, 0.53 * size, tile, dark)
     return mesh.data(f"tree_{seed}")
 
 
@@ -159,7 +159,7 @@ def _is_free(s, d, wide):
 
 
 def _kinds():
-    return {"o": ([_broadleaf(1, 12.0, 4.4, 144), _broadleaf(2, 10.0, 4.0, 128)], 3.5), "q": ([_broadleaf(3, 7.5, 2.8, 104), _broadleaf(13, 8.6, 2.9, 104)], 2.5),
+    return {"o": ([_broadleaf(1, 12.0, 4.4, 176), _broadleaf(2, 10.0, 4.0, 152)], 3.5), "q": ([_broadleaf(3, 7.5, 2.8, 104), _broadleaf(13, 8.6, 2.9, 104)], 2.5),
             "b": ([_birch(4), _birch(5)], 2.0), "s": ([_spruce(6, 13.0), _spruce(7, 10.5)], 2.3), "u": ([_bush(8, 1.3, 1.7), _bush(9, 1.8, 2.2)], 1.2)}
 
 

@@ -84,7 +84,8 @@ def _canopy(frame):
     mesh = Mesh()
     x, (y0, y1) = (route.CANOPY_S[1] - route.CANOPY_S[0]) / 2, route.CANOPY_D
     _wrap(mesh, frame, (-x, y0), (x, y1), _UNDERSIDE - 0.1, _TOP, "brand", 4.0)
-    mesh.box(frame, (-x, y0, _UNDERSIDE), (x, y1, _TOP - 0.1), "white", 3.0, skip="xXyY")
+    mesh.box(frame, (-x, y0, _UNDERSIDE), (x, y1, _TOP - 0.1), "canopy_white", 3.0, skip="xXyYZ")
+    mesh.box(frame, (-x, y0, _UNDERSIDE), (x, y1, _TOP - 0.1), "gravel", 3.0, skip="xXyYz")
     for px in (-8.0, 0.0, 8.0):
         for py in (-12.5, -16.5, -20.5):
             corners = [(px - 0.7, py + 0.35, _UNDERSIDE - 0.03), (px + 0.7, py + 0.35, _UNDERSIDE - 0.03),

@@ -194,7 +194,8 @@ def _car(paint):
     ring = [np.stack([outline[:, 0], k * half, outline[:, 1]], axis=1) for k in (1, -1)]
     for k in range(len(outline) - 1):
         glass = k in (3, 5)
-        mesh.quad([ring[0][k], ring[0][k + 1], ring[1][k + 1], ring[1][k]], "car_glass" if glass else paint)
+        mesh.quad([ring[1][k], ring[1][k + 1], ring[0][k + 1], ring[0][k]], "car_glass" if glass else paint)
+    mesh.quad([ring[0][0], ring[0][-1], ring[1][-1], ring[1][0]], "black")
     for side, sign in ((0, 1), (1, -1)):
         _car_side(mesh, ring[side], sign, paint)
     for x in (-1.35, 1.35):
@@ -202,6 +203,8 @@ def _car(paint):
             a = np.linspace(0, 2 * np.pi, 13)[:-1]
             disc = np.stack([x + 0.32 * np.cos(a), 0 * a + (y + 0.18 if y > 0 else y), 0.32 + 0.32 * np.sin(a)], axis=1)
             mesh.add(disc, [list(range(12))[::-1] if y > 0 else list(range(12))], "tyre", disc[:, [0, 2]])
+            inner = disc + [0, 0.18 if y < 0 else -0.18, 0]
+            mesh.add(inner, [list(range(12)) if y > 0 else list(range(12))[::-1]], "tyre", inner[:, [0, 2]])
             mesh.tube([(x, y, 0.32), (x, y + 0.18, 0.32)], 0.32, 12, "tyre")
     for y in (-0.62, 0.62):
         mesh.box(_WORLD, (2.1, y - 0.2, 0.62), (2.22, y + 0.2, 0.76), "tail_red")
@@ -211,8 +214,7 @@ def _car(paint):
 def _car_side(mesh, ring, sign, paint):
     lower, upper = [0, 1, 2, 3, 6, 7, 8, 9], [3, 4, 5, 6]
     for part, material in ((lower, paint), (upper, "car_glass")):
-        order = part if sign < 0 else part[::-1]
-        order = order[::-1]
+        order = part if sign > 0 else part[::-1]
         mesh.add(ring[part], [[part.index(k) for k in order]], material, ring[part][:, [0, 2]])
 
 
