@@ -4,8 +4,8 @@ import numpy as np
 
 import car_shape as shape
 from car_glass import glass_surface, surface_normals, window_outline
-from car_mesh import (Part, axes_for, fill, flipped, grid_faces, lathe, offset_loop, panel, place, resample, rotation, rounded, rounded_box,
-                      spline, tube, unit)
+from car_mesh import (Part, axes_for, fill, flipped, grid_faces, lathe, offset_loop, panel, place, resample, rounded, rounded_box, spline, tube,
+                      unit)
 
 ARCH = shape.ARCH_RADIUS_M
 HUB_Z = shape.TYRE_RADIUS_M
@@ -181,7 +181,7 @@ def tail(body):
     edge = shape.s_of_tail_y(0.63)
     other = 2 * shape.RING - edge
     s = np.linspace(edge, other, 61)
-    gate = np.concatenate([[(edge, 0.60)], np.stack([s[1:-1], np.full(59, 0.60 - 0.0)], -1), [(other, 0.60)],
+    gate = np.concatenate([[(edge, 0.60)], np.stack([s[1:-1], np.full(59, 0.60)], -1), [(other, 0.60)],
                            np.stack([s[::-1], np.full(61, 0.985)], -1)])
     panel(body, "paint", shape.side, [gate], 0.055, edge_step=0.03)
     arch_end = on_side(arch_curve(0.0, 168, 180 - ARCH_LOW))
@@ -234,7 +234,7 @@ def top(body):
     b = shape._BELT
     left = b[(b[:, 0] > 1.84)][:, :2][::20]
     y = np.linspace(0.75, -0.75, 30)
-    loop = np.concatenate([left[::-1][:0], left, np.stack([bonnet_rear_x(y) - 0.055 - 0.07 * (y / 0.75)**6, y], -1), (left * [1, -1])[::-1][:-1]])
+    loop = np.concatenate([left, np.stack([bonnet_rear_x(y) - 0.055 - 0.07 * (y / 0.75)**6, y], -1), (left * [1, -1])[::-1][:-1]])
     panel(body, "paint", shape.bonnet, [loop, bonnet_outline()], 0.05, edge_step=0.03, gap=0.0005, radius=0.003)
     panel(body, "paint", shape.roof, [roof_outline()], 0.07, edge_step=0.04, gap=0.001, depth=0.02)
     fin = []
@@ -357,9 +357,8 @@ def under(body):
         a = np.radians(np.linspace(-25, 205, 24))
         arc = np.stack([axle + (ARCH + 0.006) * np.cos(a), np.zeros(24), HUB_Z + (ARCH + 0.006) * np.sin(a)], -1)
         rows = [arc + [0, 0.905, 0], arc + [0, 0.62, 0]]
-        near = np.stack([np.stack([p[0] * 1.0, 0, p[2]]) for p in arc])
         hull = shape.side(shape.side_at(arc[:, 0], arc[:, 2]))[:, 1]
-        rows[0] = np.stack([near[:, 0], hull - 0.006, near[:, 2]], -1)
+        rows[0] = np.stack([arc[:, 0], hull - 0.006, arc[:, 2]], -1)
         body.add(np.array(rows), flipped(grid_faces(2, 24)), "under", mirror=True)
         wall = np.concatenate([rows[1], [[axle, 0.62, HUB_Z - 0.2]]])
         body.add(wall, [(k + 1, k, 24) for k in range(23)], "under", mirror=True)

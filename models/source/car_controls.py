@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 
 import car_shape as shape
-from car_mesh import Part, axes_for, flipped, grid_faces, lathe, place, rounded_box, slab, rounded, spline, tube, unit
+from car_mesh import Part, axes_for, flipped, grid_faces, lathe, place, rounded_box, spline, tube, unit
 
 HUB = np.array([1.430, shape.EYE[1], 0.905])
 TILT_RAD = np.radians(24.0)

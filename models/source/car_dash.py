@@ -2,7 +2,7 @@
 import numpy as np
 
 import car_shape as shape
-from car_mesh import Part, flipped, grid_faces, lathe, panel, resample, rotation, rounded, rounded_box, spline, tube, unit
+from car_mesh import Part, flipped, grid_faces, lathe, panel, rotation, rounded, rounded_box, spline, tube, unit
 
 DRIVER_Y = shape.EYE[1]
 HALF = 0.775

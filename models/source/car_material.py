@@ -2,6 +2,8 @@
 import bpy
 import numpy as np
 
+import car_pictures
+
 # name: (base colour linear RGB or texture name, metallic, roughness, extras)
 TABLE = {
     "paint": ((0.020, 0.085, 0.21), 0.55, 0.22, {}),
@@ -118,7 +120,7 @@ PICTURES = {
     "weave_dark": lambda: weave((0.062, 0.062, 0.066), 5),
     "felt": lambda: tinted((0.56, 0.55, 0.53), 1 + 0.07 * noise(256, [(100, 1), (30, 0.5)], 6)),
     "carpet": lambda: tinted((0.028, 0.028, 0.030), 1 + 0.30 * noise(256, [(100, 1), (40, 0.5)], 7)),
-    "dials": lambda: __import__("car_pictures").dials(),
-    "screen": lambda: __import__("car_pictures").screen(),
-    "plate": lambda: __import__("car_pictures").plate(),
+    "dials": car_pictures.dials,
+    "screen": car_pictures.screen,
+    "plate": car_pictures.plate,
 }

@@ -359,19 +359,5 @@ def rounded_box(center, size, radius=0.01, basis=np.eye(3), segments=2):
     return verts @ np.asarray(basis).T + np.asarray(center, float), faces
 
 
-def slab(outline, normal, thickness, bevel=0.003):
-    """A plate: a closed 3-D outline (planar or nearly so, counter-clockwise seen from `normal`) thickened behind it."""
-    outline = np.asarray(outline, float)
-    normal = unit(normal)
-    along = unit(np.roll(outline, -1, 0) - np.roll(outline, 1, 0))
-    out = np.cross(along, normal)
-    rows = [outline - bevel * out, outline - bevel * 0.3 * out - bevel * 0.3 * normal, outline - bevel * normal, outline - thickness * normal]
-    n = len(outline)
-    faces = [tuple(range(n))]
-    for k in range(3):
-        faces += [(k * n + j, (k + 1) * n + j, (k + 1) * n + (j + 1) % n, k * n + (j + 1) % n) for j in range(n)]
-    return np.concatenate(rows), faces
-
-
 def rotation(axis, angle_deg):
     return np.array(mathutils.Matrix.Rotation(np.radians(angle_deg), 3, mathutils.Vector(axis)))

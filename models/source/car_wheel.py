@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 
 import car_shape as shape
-from car_mesh import Part, flipped, grid_faces, lathe, place, rounded_box
+from car_mesh import Part, flipped, grid_faces, lathe, place
 
 R = shape.TYRE_RADIUS_M
 

@@ -4,7 +4,7 @@ import numpy as np
 
 import car_shape as shape
 from car_glass import surface_normals
-from car_mesh import Part, axes_for, lathe, place, rounded_box, tube, unit
+from car_mesh import Part, axes_for, lathe, place, rounded_box, unit
 
 # pivot (u, v) on the glass, rest angle above the line to the right, sweep, pivot to the blade's middle, blade
 WIPERS = {
