@@ -36,7 +36,7 @@ struct FieldStats {
 
 // How far drops are drawn: a drop of diameter D is a particle to the distance `visibility_factor * reference_px * D` and fades before it.
 struct Visibility {
-  double factor = 2.0;          // 0.25 .. 4; 1: until it is one reference pixel wide
+  double factor = 1.25;         // 0.25 .. 4; 1: until it is one reference pixel wide
   double reference_px = 1663.0;  // focal length of 1920 x 1080 at 60 deg horizontally: 960 / tan(30 deg); never the view's own
 };
 

@@ -6,7 +6,7 @@
 namespace rg::rain {
 namespace {
 
-constexpr double kReferenceReach_per_m = 2.0 * 1663.0;  // visibility factor 2 at the reference resolution
+constexpr double kReferenceReach_per_m = 1.25 * 1663.0;  // visibility factor 1.25 at the reference resolution
 constexpr double kCellsPerReach = 6.0;
 
 // Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators": SplitMix64's mixing.

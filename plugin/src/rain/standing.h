@@ -38,7 +38,7 @@ struct ClassLattice {
   double cell_m = 1.0;
   double cell_m3 = 1.0;
 };
-// Cells are a sixth of how far the class's largest drops are seen at visibility factor 2: small enough to follow the view's edge (they add
+// Cells are a sixth of how far the class's largest drops are seen at visibility factor 1.25: small enough to follow the view's edge (they add
 // about a half to its drops), large enough that a view's border has few.
 const std::array<ClassLattice, kSpeedClasses>& classLattices();
 
