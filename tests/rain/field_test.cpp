@@ -3,25 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <map>
-#include <new>
-
+#include "allocations.h"
 #include "rain/region.h"
 #include "rain/size_law.h"
 #include "scene.h"
-
-namespace {
-std::atomic<uint64_t> allocations{0};
-}
-void* operator new(size_t bytes) {
-  ++allocations;
-  if (void* memory = std::malloc(bytes)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 
 namespace rg::rain::test {
 namespace {
@@ -137,7 +122,7 @@ TEST(Field, seekingBackUnderSteadyWeatherFindsTheSameRain) {
 TEST(Field, allocatesNothingInATick) {
   Field field;
   Scene scene = sceneWithView(50);
-  scene.vehicles.push_back({.id = 7});
+  scene.vehicles.emplace_back().id = 7;
   ASSERT_EQ(setBox(field, 1, {-2, -0.8, 0}, {2, 0.8, 1.7}, 7), "");
   drive(field, scene, 100 * kKmh, 0.5, 200, [](int) {});
   const uint64_t before = allocations;
@@ -191,7 +176,7 @@ TEST(Shelter, noStreakIsEverDrawnInsideAVolumeInStormAndBraking) {
   for (uint32_t i = 0; i < roofs.size(); ++i) ASSERT_EQ(setBox(field, i + 1, roofs[i].low, roofs[i].high, i == 0 ? 7 : 0), "");
   Scene scene = sceneWithView(30);
   scene.weather.wind_mps = {5, -40, 0};
-  scene.vehicles.push_back({.id = 7});
+  scene.vehicles.emplace_back().id = 7;
   scene.views[0].vehicle = 7;
   std::vector<Streak> streaks;
   double x = -10.0, v = 100 * kKmh;
