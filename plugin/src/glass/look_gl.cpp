@@ -67,6 +67,7 @@ struct GlassLook::Parts {
         mesh_layout(gl),
         no_layout(gl),
         smooth(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
+        stepped(gl, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_CLAMP_TO_EDGE),
         mipped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
         exact(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
         no_environment(gl, GL_RGBA16F, 1),
@@ -100,7 +101,7 @@ struct GlassLook::Parts {
   std::array<gl::Program, 2> drop_programs;
   gl::Buffer frame_block, seen_drops;
   gl::VertexArray mesh_layout, no_layout;
-  gl::Sampler smooth, mipped, exact;
+  gl::Sampler smooth, stepped, mipped, exact;
   gl::TextureCube no_environment;  // black
   gl::Texture2D no_film;           // a dry texel
   Canvases films;                  // of look_film.frag
@@ -192,6 +193,7 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.Disable(GL_BLEND);
   gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen : no_film.name());
   gl.BindSampler(kFirst, smooth.name());
+  gl.BindSampler(kPicture, stepped.name());  // one mip level: a quarter of the pass cheaper
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
   mesh_layout.bindIndices(pane.index_buffer);
   gl.BindVertexArray(mesh_layout.name());
@@ -224,6 +226,7 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
 
 void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.Enable(GL_BLEND);
+  gl.BindSampler(kPicture, mipped.name());
   gl.BindVertexArray(no_layout.name());
   drop_programs[with_environment].use();
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
@@ -239,7 +242,7 @@ void GlassLook::Parts::forget() {
   seen_drops.forget();
   mesh_layout.forget();
   no_layout.forget();
-  for (gl::Sampler* sampler : {&smooth, &mipped, &exact}) sampler->forget();
+  for (gl::Sampler* sampler : {&smooth, &stepped, &mipped, &exact}) sampler->forget();
   no_environment.forget();
   no_film.forget();
   films.forget();
