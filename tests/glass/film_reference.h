@@ -1,0 +1,141 @@
+// The film on the CPU: the law of shared/glass_film.glsl with plain loops around it, one texel after the
+// other. What the GPU is held against.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "glass/film_order.h"
+#include "glass/pane_map.h"
+
+namespace rg::test {
+
+class FilmReference {
+ public:
+  explicit FilmReference(const glass::PaneMap& map)
+      : map_(map), columns_(map.grid().size.x), rows_(map.grid().size.y), ridge_(glass::kRidgePieces, 0) {
+    for (int i = 0; i < map.texelCount(); ++i) film.push_back(map.inside(i) ? 0 : -1);
+  }
+
+  std::vector<int32_t> film;
+
+  glass::FilmReport run(const glass::FilmOrder& order) {
+    glass::FilmReport report;
+    report.step = order.step;
+    for (const shared::FilmTake& take : order.takes) {
+      const int taken = shared::shareOf(at(take.texel), take.share_65536);
+      at(take.texel) -= taken;
+      report.taken_pl.push_back(taken);
+    }
+    for (const shared::FilmAdd& add : order.adds) at(add.texel) += add.volume_pl;
+    for (const shared::RidgeAdd& add : order.ridge_adds) ridge(add.segment) += add.volume_pl;
+    for (const glass::SweepOrder& sweep : order.sweeps) this->sweep(sweep);
+    for (const shared::RidgeLeave& leave : order.leaves) report.wiped_pl += this->leave(leave, order);
+    step(order, report);
+    for (const int32_t volume : ridge_) report.ridge_pl += volume;
+    return report;
+  }
+
+ private:
+  int32_t& at(int texel) { return film[static_cast<size_t>(texel)]; }
+  int32_t& ridge(int segment) { return ridge_[static_cast<size_t>(segment)]; }
+
+  void sweep(const glass::SweepOrder& sweep) {
+    for (int i = sweep.first; i < sweep.first + sweep.count; ++i) {
+      const shared::SweptTexel& entry = (*sweep.swept)[static_cast<size_t>(i)];
+      if (at(entry.texel) <= sweep.residual_pl) continue;
+      ridge(entry.segment) += at(entry.texel) - sweep.residual_pl;
+      at(entry.texel) = sweep.residual_pl;
+    }
+  }
+
+  int64_t leave(const shared::RidgeLeave& leave, const glass::FilmOrder& order) {
+    const int volume = std::exchange(ridge(leave.segment), 0);
+    if (leave.count == 0) return volume;
+    const int each = volume / leave.count;
+    for (int k = 0; k < leave.count; ++k) {
+      at(order.leave_texels[static_cast<size_t>(leave.first + k)]) +=
+          k == 0 ? volume - each * (leave.count - 1) : each;
+    }
+    return 0;
+  }
+
+  shared::vec4 field(const std::vector<shared::vec4>& nodes, int x, int y) const {
+    const int across = map_.nodeCount().x;
+    const size_t n = static_cast<size_t>(y / shared::kTileSize * across + x / shared::kTileSize),
+                 m = n + static_cast<size_t>(across);
+    const glm::vec2 f = (glm::vec2(x % shared::kTileSize, y % shared::kTileSize) + 0.5f) /
+                        static_cast<float>(shared::kTileSize);
+    return shared::betweenNodes(nodes[n], nodes[n + 1], nodes[m], nodes[m + 1], f);
+  }
+
+  void step(const glass::FilmOrder& order, glass::FilmReport& report) {
+    std::vector<shared::FilmCell> cells(film.size());
+    for (int i = 0; i < map_.texelCount(); ++i) {
+      const int x = i % columns_, y = i / columns_;
+      cells[static_cast<size_t>(i)] = at(i) > 0 ? shared::filmCell(at(i), field(order.drive, x, y),
+                                                                   field(map_.nodeMetric(), x, y), order.info)
+                                                : shared::FilmCell{at(i), 0.0f, 0, 0};
+    }
+    const int tiles_across = map_.tileCount().x;
+    report.tiles.assign(map_.tileArea_m2().size(), shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
+    std::vector<int> offers(film.size(), 0);
+    for (int i = 0; i < map_.texelCount(); ++i) {
+      if (cells[static_cast<size_t>(i)].volume_pl < 0) continue;
+      const int x = i % columns_, y = i / columns_;
+      shared::FilmTile& tile =
+          report.tiles[static_cast<size_t>(y / shared::kTileSize * tiles_across + x / shared::kTileSize)];
+      const shared::vec4 metric = field(map_.nodeMetric(), x, y);
+      const auto texel = static_cast<uint32_t>(i);
+      int volume = flowed(i, cells, order.info, tile);
+      const int dried = shared::evaporated_pl(volume, texel, metric, order.info);
+      tile.evaporated_pl += dried;
+      volume -= dried;
+      at(i) = volume;
+      offers[static_cast<size_t>(i)] = shared::offered_pl(volume, texel, metric, order.info);
+      if (offers[static_cast<size_t>(i)] > tile.event_pl) {
+        tile.event_pl = offers[static_cast<size_t>(i)];
+        tile.event_texel = i;
+      }
+    }
+    for (const shared::FilmTile& tile : report.tiles) {
+      if (tile.event_texel >= 0) at(tile.event_texel) -= tile.event_pl;
+    }
+    for (int i = 0; i < map_.texelCount(); ++i) {
+      shared::FilmTile& tile = report.tiles[static_cast<size_t>(
+          i / columns_ / shared::kTileSize * tiles_across + i % columns_ / shared::kTileSize)];
+      tile.film_low_pl += static_cast<uint32_t>(std::max(at(i), 0)) & 0xffffu;
+      tile.film_high += static_cast<uint32_t>(std::max(at(i), 0)) >> 16u;
+    }
+  }
+
+  int flowed(int i, const std::vector<shared::FilmCell>& cells, const shared::FilmStepInfo& info,
+             shared::FilmTile& tile) const {
+    const shared::FilmCell& me = cells[static_cast<size_t>(i)];
+    int volume = me.volume_pl;
+    const auto face = [&](int step, bool along_x, glm::vec2 outward) {
+      const shared::FilmCell& other = cells[static_cast<size_t>(i + step)];
+      const auto a = static_cast<uint32_t>(step < 0 ? i + step : i),
+                 b = static_cast<uint32_t>(step < 0 ? i : i + step);
+      const shared::FilmCell& low = step < 0 ? other : me;
+      const shared::FilmCell& high = step < 0 ? me : other;
+      const int flow = shared::faceFlow_pl(low, along_x ? low.x_pl : low.y_pl, a, high,
+                                           along_x ? high.x_pl : high.y_pl, b, info);
+      const int out = step < 0 ? -flow : flow;
+      volume -= out;
+      if (other.volume_pl < 0)
+        (glm::dot(outward, glm::vec2(info.up_x, info.up_y)) > 0.5f ? tile.blown_pl : tile.drained_pl) += out;
+    };
+    face(-1, true, {-1, 0});
+    face(1, true, {1, 0});
+    face(-columns_, false, {0, -1});
+    face(columns_, false, {0, 1});
+    return volume;
+  }
+
+  const glass::PaneMap& map_;
+  int columns_, rows_;
+  std::vector<int32_t> ridge_;
+};
+
+}  // namespace rg::test

@@ -1,0 +1,182 @@
+// The film against the laws of thin films, and the GPU's film against the same law run on the CPU.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "film_reference.h"
+#include "gl_fixture.h"
+#include "glass/film_gl.h"
+#include "scene.h"
+
+namespace rg::test {
+namespace {
+
+constexpr double kRhoG_mu = 1000.0 * 9.81 / 1.0e-3;
+
+class Film : public GlTest {
+ protected:
+  glass::PaneInfo filmOnly(const Mesh& mesh) {
+    glass::PaneInfo info = paneInfo(mesh);
+    info.max_drops = 0;
+    return info;
+  }
+  // Mean over the columns at a distance from the upper edge.
+  double meanThickness_m(const Simulation& sim, const std::vector<int32_t>& film, double from_top_m,
+                         double height_m) {
+    double sum = 0.0;
+    int count = 0;
+    for (int i = 0; i < sim.sim->map().texelCount(); ++i) {
+      if (!sim.sim->map().inside(i)) continue;
+      const double below = 0.5 * height_m - sim.sim->map().glassFromGrid(sim.sim->map().middleOf(i)).y;
+      if (std::abs(below - from_top_m) > 0.02) continue;
+      sum += sim.thickness_m(film, i);
+      ++count;
+    }
+    return sum / count;
+  }
+};
+
+// Nusselt: h = (3 mu R_eff x / (rho g sin a))^(1/3) at x below the upper edge, steady under rain.
+TEST_F(Film, steadyUnderRainFollowsTheCubeRootLaw) {
+  constexpr double kTolerance =
+      0.10;  // drops fall one by one, so the film is a little uneven, and the flux is its mean cube
+  const double slope = rad(30);
+  const Mesh mesh = windscreen(0.09, 0.8, slope);
+  Simulation sim(gl, filmOnly(mesh));
+  sim.run(weather(50.0), 40.0);
+  const double r_eff = 50.0 / 3.6e6 * std::cos(slope);
+  std::array<double, 3> mean{};
+  constexpr int kTimes = 20;
+  for (int k = 0; k < kTimes; ++k) {
+    sim.run(weather(50.0), 0.5);
+    const std::vector<int32_t> film = sim.pane.readFilm();
+    for (size_t i = 0; i < 3; ++i)
+      mean[i] += meanThickness_m(sim, film, 0.2 + 0.25 * static_cast<double>(i), 0.8) / kTimes;
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    const double x = 0.2 + 0.25 * static_cast<double>(i);
+    const double law = std::cbrt(3.0 * r_eff * x / (kRhoG_mu * std::sin(slope)));
+    std::printf("x %.2f m: %.1f um, law %.1f um\n", x, mean[i] * 1e6, law * 1e6);
+    EXPECT_NEAR(mean[i] / law, 1.0, kTolerance) << "at " << x << " m";
+  }
+}
+
+// Jeffreys 1930: after rain h = sqrt(mu x / (rho g sin a t)) wherever the wave from the upper edge has
+// passed.
+TEST_F(Film, drainsAsJeffreysSays) {
+  constexpr double kTolerance = 0.05;  // of upwind differences on a 3 mm grid
+  const double slope = rad(30);
+  const Mesh mesh = windscreen(0.06, 0.8, slope);
+  const glass::PaneInfo info = filmOnly(mesh);
+  glass::PaneSim sim(info, 1, 7);
+  FilmReference film(sim.map());
+  for (int i = 0; i < sim.map().texelCount(); ++i) {
+    if (sim.map().inside(i))
+      film.film[static_cast<size_t>(i)] =
+          static_cast<int32_t>(std::llround(150e-6 * static_cast<double>(sim.map().texel(i).area_m2) * 1e15));
+  }
+  sim.attachFilm();
+  int steps = 0;
+  for (const double t_s : {10.0, 20.0, 40.0}) {
+    while (steps < std::lround(t_s * 60.0)) {
+      for (int half = 0; half < 2; ++half) {
+        glass::PaneTick tick = weather(0.0);
+        tick.index = 2 * steps + half + 1;
+        sim.submit(tick);
+      }
+      for (const glass::FilmOrder& order : sim.fetchOrders()) sim.deliver(film.run(order));
+      ++steps;
+    }
+    double sum = 0.0;
+    int count = 0;
+    for (int i = 0; i < sim.map().texelCount(); ++i) {
+      const double x = 0.4 - sim.map().glassFromGrid(sim.map().middleOf(i)).y;
+      if (!sim.map().inside(i) || std::abs(x - 0.5) > 0.01) continue;
+      sum += static_cast<double>(film.film[static_cast<size_t>(i)]) * 1e-15 /
+             static_cast<double>(sim.map().texel(i).area_m2);
+      ++count;
+    }
+    const double law = std::sqrt(0.5 / (kRhoG_mu * std::sin(slope) * t_s));
+    std::printf("t %.0f s: %.1f um, law %.1f um\n", t_s, sum / count * 1e6, law * 1e6);
+    EXPECT_NEAR(sum / count / law, 1.0, kTolerance) << "after " << t_s << " s";
+  }
+}
+
+// The GPU and the CPU run one text; their integers agree to the last one, orders of all kinds included.
+TEST_F(Film, isTheSameOnGpuAndCpu) {
+  const Mesh mesh = windscreen(0.5, 0.4, rad(30), 0.03);
+  glass::PaneInfo info = paneInfo(mesh);
+  info.max_drops = 3000;
+  glass::PaneSim sim(info, 1, 7);
+  sim.setWiper(3, wiper(rad(30), 0.4));
+  const WiperMotor motor(3, rad(20), rad(150), 70.0);
+  sim.attachFilm();
+  FilmReference reference(sim.map());
+  const auto programs = glass::makeFilmPrograms(gl);
+  glass::FilmGl gpu(gl, programs, sim.map());
+  int64_t took = 0, swept = 0, left = 0, wiped = 0, events = 0;
+  for (int64_t index = 1; index <= 480; ++index) {
+    glass::PaneTick tick = weather(100.0, 20.0, 0.5);
+    tick.index = index;
+    tick.wiper_count = index > 120 ? 1 : 0;
+    tick.wipers[0] = motor.stroke(static_cast<double>(index - 1) * kTickSeconds,
+                                  static_cast<double>(index) * kTickSeconds);
+    sim.submit(tick);
+    for (const glass::FilmOrder& order : sim.fetchOrders()) {
+      std::vector<glass::FilmOrder> copy{order};
+      gpu.run(std::move(copy));
+      const std::vector<glass::FilmReport> reports = gpu.collect(true);
+      ASSERT_EQ(reports.size(), 1u);
+      glass::FilmReport expected = reference.run(order);
+      const glass::FilmReport& got = reports[0];
+      ASSERT_EQ(got.taken_pl, expected.taken_pl);
+      ASSERT_EQ(got.ridge_pl, expected.ridge_pl);
+      ASSERT_EQ(got.wiped_pl, expected.wiped_pl);
+      for (size_t t = 0; t < got.tiles.size(); ++t) {
+        ASSERT_EQ(std::memcmp(&got.tiles[t], &expected.tiles[t], sizeof(shared::FilmTile)), 0)
+            << "tile " << t << " step " << order.step;
+        events += expected.tiles[t].event_texel >= 0 ? 1 : 0;
+      }
+      for (const int v : expected.taken_pl) took += v;
+      for (const glass::SweepOrder& s : order.sweeps) swept += s.count;
+      left += static_cast<int64_t>(order.leaves.size());
+      wiped += expected.wiped_pl;
+      sim.deliver(std::move(expected));
+    }
+  }
+  EXPECT_EQ(gpu.readFilm(), reference.film);
+  // All kinds of orders were there.
+  EXPECT_GT(took, 0);
+  EXPECT_GT(swept, 0);
+  EXPECT_GT(left, 0);
+  EXPECT_GT(wiped, 0);
+  EXPECT_GT(events, 0);
+}
+
+// tau > (2/3) rho g h sin a turns the net flow of a film round (physics.md 4).
+TEST(FilmLaw, windShearTurnsTheFlowRound) {
+  const float h = 100e-6f, g = 9.81f * 0.5f;
+  const float turning = 2.0f / 3.0f * 1000.0f * g * h;
+  EXPECT_LT(shared::filmVelocity(h, {0.0f, -g, 0.0f, 0.99f * turning}).y, 0.0f);
+  EXPECT_GT(shared::filmVelocity(h, {0.0f, -g, 0.0f, 1.01f * turning}).y, 0.0f);
+}
+
+TEST(FilmLaw, giveAndTakeAgreeAtEveryFace) {
+  shared::FilmStepInfo info{};
+  info.pin_m = 3e-6f;
+  info.front_m = 40e-6f;
+  const shared::vec4 metric(3e-3f, 3e-3f, 1.0f / 9e-6f, 0.0f);
+  for (uint32_t i = 0; i < 10000; ++i) {
+    const glm::uvec3 h = shared::pcg3d({i, 1u, 2u});
+    const shared::vec4 drive(shared::unitFloat(h.x) * 20.0f - 10.0f, 3.0f, shared::unitFloat(h.y) - 0.5f,
+                             0.1f);
+    const auto volume = static_cast<int>(shared::unitFloat(h.z) * shared::unitFloat(h.z) * 2e7f);
+    const shared::FilmCell cell = shared::filmCell(volume, drive, metric, info);
+    // Half of what is there at most, so that surface tension's four eighths leave nothing negative; one for
+    // rounding.
+    ASSERT_LE(std::abs(cell.x_pl) + std::abs(cell.y_pl), volume / 2 + 2);
+  }
+}
+
+}  // namespace
+}  // namespace rg::test
