@@ -174,7 +174,7 @@ TEST(Drops, windSortsThemBySize) {
     const glass::PaneMap& map = scene.sim->map();
     return map.glassFromGrid(glm::dvec2(after->drops[0].position_m)).y - start;
   };
-  const double slow = 8.0, fast = 14.0;
+  const double slow = 8.0, fast = 16.0;
   EXPECT_NEAR(climbs(0.3, slow), 0.0, 1e-5);    // tiniest: stick
   EXPECT_LT(climbs(9.0, slow), -1e-3);          // largest: run down
   EXPECT_GT(climbs(3.0, fast), 1e-3);           // blown up

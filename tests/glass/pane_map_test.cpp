@@ -97,7 +97,7 @@ TEST(PaneMap, refusesBrokenMeshesByName) {
   expectRefused(mesh, "4096 texels");
   mesh = good;
   for (glm::vec3& p : mesh.positions) p *= 0.001f;
-  expectRefused(mesh, "no area");
+  expectRefused(mesh, "smaller than a texel");
 }
 
 }  // namespace

@@ -125,8 +125,8 @@ void PaneSim::State::useReport() {
   for (size_t i = 0; i < takers.size(); ++i) drops.give(shared_world, takers[i], report.taken_pl[i]);
   for (const shared::FilmTile& tile : report.tiles) {
     if (tile.event_texel < 0 || tile.event_pl <= 0) continue;
-    const uint32_t h = shared::pcg(static_cast<uint32_t>(tile.event_texel) ^
-                                   shared::pcg(static_cast<uint32_t>(report.step)));
+    const uint32_t h =
+        shared::pcg(static_cast<uint32_t>(tile.event_texel) ^ shared::pcg(static_cast<uint32_t>(now.index)));
     const double angle = surface.receding_rad + (surface.advancing_rad - surface.receding_rad) *
                                                     (0.4 + 0.5 * static_cast<double>(shared::unitFloat(h)));
     const glm::dvec2 jitter =

@@ -28,13 +28,17 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot)
   std::vector<Entry> entries;
   for (int i = 0; i < map.texelCount(); ++i) {
     if (!map.inside(i)) continue;
+    // A drop in the texel may be met though its middle is not.
+    const Crossings around = crossings(glm::dvec3(map.texel(i).position_m), texel_m_);
+    for (int k = 0; k < around.count; ++k) {
+      auto& [least, most] = texel_angles_[static_cast<size_t>(i)];
+      least = std::min(least, static_cast<float>(around.angle_rad[k]));
+      most = std::max(most, static_cast<float>(around.angle_rad[k]));
+    }
     const Crossings c = crossingsAt(glm::dvec3(map.texel(i).position_m));
     for (int k = 0; k < c.count; ++k) {
       const double angle = c.angle_rad[k];
       entries.push_back({angle, {i, slot * shared::kBladeSegments + c.segment[k]}});
-      auto& [least, most] = texel_angles_[static_cast<size_t>(i)];
-      least = std::min(least, static_cast<float>(angle));
-      most = std::max(most, static_cast<float>(angle));
       auto& [low, high] = segment_angles_[static_cast<size_t>(c.segment[k])];
       low = std::min(low, angle);
       high = std::max(high, angle);
@@ -54,7 +58,9 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot)
 // The blade's points at angle t are P(s) = a e(t) + s e(t + b), |s| <= L/2, so |P|^2 = a^2 + 2 a s cos b +
 // s^2: a place at distance r is met where s = -a cos b +- sqrt(r^2 - a^2 sin^2 b), at the angle its own
 // direction has more than the point's at t = 0.
-Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m) const {
+Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m) const { return crossings(vehicle_m, 0.0); }
+
+Crossings Wiper::crossings(const glm::dvec3& vehicle_m, double beyond_end_m) const {
   const glm::dvec3 d = vehicle_m - info_.pivot_m;
   const double x = glm::dot(d, info_.rest_direction), y = glm::dot(d, side_);
   const double cos_b = std::cos(info_.blade_angle_rad), sin_b = std::sin(info_.blade_angle_rad);
@@ -64,7 +70,7 @@ Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m) const {
   const double root = std::sqrt(under);
   for (const double sign : {1.0, -1.0}) {
     const double s = -info_.arm_m * cos_b + sign * root;
-    if (std::abs(s) > 0.5 * info_.blade_m || (sign < 0.0 && root == 0.0)) continue;
+    if (std::abs(s) > 0.5 * info_.blade_m + beyond_end_m || (sign < 0.0 && root == 0.0)) continue;
     out.angle_rad[out.count] = wrapped(std::atan2(y, x) - std::atan2(s * sin_b, info_.arm_m + s * cos_b));
     const double along = (s / info_.blade_m + 0.5) * shared::kBladeSegments;
     out.segment[out.count] = std::clamp(static_cast<int>(along), 0, shared::kBladeSegments - 1);

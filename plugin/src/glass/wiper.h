@@ -51,6 +51,8 @@ class Wiper {
   bool offGlass(int segment, double angle_rad) const;
 
  private:
+  Crossings crossings(const glm::dvec3& vehicle_m, double beyond_end_m) const;
+
   WiperInfo info_;
   int slot_;
   glm::dvec3 side_{0.0};
