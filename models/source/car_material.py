@@ -83,7 +83,7 @@ def texture(name):
     return image
 
 
-# --- tiles (metric uv: one tile a metre over the repeat given by its detail) ---
+# --- tiles (box projected, see TILES_PER_M in car_mesh.py) ---
 
 def noise(size, octaves, seed):
     """Periodic value noise in -1..1 with unit variance-ish: random Fourier phases per octave."""

@@ -9,6 +9,7 @@ import mathutils
 import numpy as np
 from mathutils.geometry import delaunay_2d_cdt
 
+TILES_PER_M = 4.0  # textures repeat every 25 cm: a texel is 1 mm
 SHARP_RAD = np.radians(38.0)  # edges sharper than this are drawn hard where no normals are given
 
 
@@ -75,10 +76,10 @@ class Part:
             span = slice(polygon.loop_start, polygon.loop_start + polygon.loop_total)
             if np.isnan(uv[span]).any():  # metric box projection, so that tiled textures have their true scale
                 n = np.abs(polygon.normal)
-                keep = [(0, 2), (1, 2), (0, 1)][int(np.argmax([n[0], n[1], n[2]]))]
+                keep = [(1, 2), (0, 2), (0, 1)][int(np.argmax([n[0], n[1], n[2]]))]  # Blender's x is our y
                 p = world[loops[span]]
                 axes = {0: p[:, 1], 1: p[:, 0], 2: p[:, 2]}
-                uv[span] = np.stack([axes[keep[0]], axes[keep[1]]], axis=-1)
+                uv[span] = TILES_PER_M * np.stack([axes[keep[0]], axes[keep[1]]], axis=-1)
         mesh.uv_layers.new(name="uv").data.foreach_set("uv", uv.astype(np.float32).ravel())
 
 
