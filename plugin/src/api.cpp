@@ -1,5 +1,6 @@
 // The ABI's edge: checks arguments, catches everything, returns a code. No maths here.
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <vector>
@@ -20,7 +21,8 @@ namespace {
 constexpr uint32_t kMostLamps = 4096, kMostPlacedDrops = 1000000, kMostVertices = 1000000;
 constexpr double kMaxDouble = 1.7e308;  // any finite number
 
-thread_local std::string create_error;
+// Plain bytes: a thread-local with a destructor would keep the library from being unloaded while its thread lives.
+thread_local char create_error[256];
 
 // Numbers of log messages: the negated result code for refused calls, from 100 on for remarks.
 enum : uint32_t { kLogThinned = 101, kLogTimeDropped = 102, kLogAttached = 103 };
@@ -31,7 +33,8 @@ void say(const rg_instance& instance, rg_log_level level, uint32_t message, cons
 
 rg_result failed(rg_instance* instance, rg_result code, const char* text) {
   try {
-    (instance != nullptr ? instance->frame.last_error : create_error) = text;
+    if (instance != nullptr) instance->frame.last_error = text;
+    else std::snprintf(create_error, sizeof create_error, "%s", text);
     if (instance != nullptr) say(*instance, RG_LOG_ERROR, static_cast<uint32_t>(-code), text);
   } catch (...) {
     return RG_ERROR_OUT_OF_MEMORY;
@@ -130,7 +133,7 @@ rg_result create(const rg_create_info* in, rg_instance** out) {
 
 void destroy(rg_instance* instance) { delete instance; }
 
-const char* lastError(rg_instance* instance) { return instance != nullptr ? instance->frame.last_error.c_str() : create_error.c_str(); }
+const char* lastError(rg_instance* instance) { return instance != nullptr ? instance->frame.last_error.c_str() : create_error; }
 
 // ---- GL ----
 

@@ -156,7 +156,8 @@ void GlassLook::Parts::bindLook(const LookLight& light) {
 
 void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) {
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
-  gl.Viewport(view.viewport_px.x, view.viewport_px.y, view.viewport_px.z, view.viewport_px.w);
+  const glm::vec4 viewport(view.viewport_px);
+  gl.ViewportIndexedfv(0, &viewport.x);
   gl.ClipControl(GL_LOWER_LEFT, view.clip_zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(view.reversed_depth ? GL_GEQUAL : GL_LEQUAL);
@@ -166,19 +167,20 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
       glm::determinant(glm::dmat3(view.eyeFromWorld)) * view.clipFromEye[0][0] * view.clipFromEye[1][1];
   gl.FrontFace(handed < 0.0 ? GL_CW : GL_CCW);
   gl.Disable(GL_CULL_FACE);
-  gl.Disable(GL_SCISSOR_TEST);
-  gl.BlendEquation(GL_FUNC_ADD);
-  gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // the target's alpha stays
+  gl.Disablei(GL_SCISSOR_TEST, 0);
+  gl.BlendEquationi(0, GL_FUNC_ADD);
+  gl.BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // the target's alpha stays
 }
 
 void GlassLook::Parts::composeFilm(const LookPane& pane) {
   Canvas& canvas = films.ofSize(pane.film_size.x, pane.film_size.y);
   film_seen = canvas.texture.name();
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer.name());
-  gl.Viewport(0, 0, pane.film_size.x, pane.film_size.y);
+  gl.ViewportIndexedf(0, 0.0f, 0.0f, static_cast<float>(pane.film_size.x),
+                      static_cast<float>(pane.film_size.y));
   gl.Disable(GL_DEPTH_TEST);
-  gl.Disable(GL_BLEND);
-  gl.Disable(GL_SCISSOR_TEST);
+  gl.Disablei(GL_BLEND, 0);
+  gl.Disablei(GL_SCISSOR_TEST, 0);
   gl.Disable(GL_CULL_FACE);
   gl.BindTextureUnit(kFirst, pane.film);
   gl.BindTextureUnit(kSecond, pane.frame);
@@ -190,7 +192,7 @@ void GlassLook::Parts::composeFilm(const LookPane& pane) {
 }
 
 void GlassLook::Parts::drawFilm(const LookPane& pane) {
-  gl.Disable(GL_BLEND);
+  gl.Disablei(GL_BLEND, 0);
   gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen : no_film.name());
   gl.BindSampler(kFirst, smooth.name());
   gl.BindSampler(kPicture, stepped.name());  // one mip level: a quarter of the pass cheaper
@@ -225,7 +227,7 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
 }
 
 void GlassLook::Parts::drawDrops(const LookPane& pane) {
-  gl.Enable(GL_BLEND);
+  gl.Enablei(GL_BLEND, 0);
   gl.BindSampler(kPicture, mipped.name());
   gl.BindVertexArray(no_layout.name());
   drop_programs[with_environment].use();

@@ -37,7 +37,7 @@ void LookPicture::fetch(const glm::ivec4& viewport_px, const LookTarget& target)
     gl_->NamedFramebufferReadBuffer(source_.name(), GL_COLOR_ATTACHMENT0);
     source = source_.name();
   }
-  gl_->Disable(GL_SCISSOR_TEST);
+  gl_->Disablei(GL_SCISSOR_TEST, 0);
   gl_->BlitNamedFramebuffer(source, canvas.framebuffer.name(), x, y, x + width, y + height, 0, 0, width,
                             height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   canvas.texture.generateMipmaps();
