@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kAdaptation_s = 0.6;        // a driver's eye over the first decades (unsourced)
 constexpr int64_t kAdaptationTicks = 12;     // ten times a second
+// A driver's eye, and a camera that is to look like one, goes only part of the way from day to a tunnel's light: the cabin, the lit screens and
+// the bright mouth are seen too (unsourced).
+constexpr double kAdaptedShare = 0.6;
 constexpr double kRoadDries_mm_per_s = 0.2 / 3600.0;  // on a mild day with traffic (unsourced)
 constexpr double kMostOnRoad_mm = 1.0;       // the rest runs off
 constexpr double kChaseBehind_m = 6.5, kChaseUp_m = 2.3;
@@ -80,7 +83,10 @@ void Simulation::tick() {
   const double rain_mm = weather().rain_mm_h / 3600.0 * kHostTickSeconds;
   water_on_road_mm_ = std::clamp(water_on_road_mm_ + rain_mm - kRoadDries_mm_per_s * kHostTickSeconds, 0.0, kMostOnRoad_mm);
   if (adapting_luminance && tick_ % kAdaptationTicks == 0) {
-    const double target = std::log(std::max(1e-4, adapting_luminance(eyeOf(driver_.state()).position_m)));
+    const double here = std::log(std::max(1e-4, adapting_luminance(eyeOf(driver_.state()).position_m)));
+    if (!adapted_) day_log_luminance_ = here;
+    day_log_luminance_ = std::max(day_log_luminance_, here);
+    const double target = std::lerp(day_log_luminance_, here, kAdaptedShare);
     const double share = adapted_ ? 1.0 - std::exp(-kHostTickSeconds * kAdaptationTicks / kAdaptation_s) : 1.0;
     log_luminance_ += (target - log_luminance_) * share;
     adapted_ = true;

@@ -90,7 +90,7 @@ class Simulation {
   int64_t tick_ = -1;  // of the plugin's clock; -1: not begun
   std::vector<rg_wiper_knot> knots_;
   double water_on_road_mm_ = 0.0;
-  double log_luminance_ = 0.0;
+  double log_luminance_ = 0.0, day_log_luminance_ = 0.0;  // natural logarithms of 1000 cd/m^2; the brightest met so far
   bool adapted_ = false;
   std::string camera_before_;
   bool cut_ = true;

@@ -299,6 +299,6 @@ glm::dmat4 reversedPerspective(double fov_rad, glm::ivec2 size_px, double near_m
   return projection;
 }
 
-double exposureFor(double luminance) { return 0.35 / std::max(luminance, 1e-4); }
+double exposureFor(double luminance) { return 0.5 / std::max(luminance, 1e-4); }
 
 }  // namespace host

@@ -6,7 +6,7 @@
 namespace rg {
 
 struct Settings {
-  double rain_gain = 6.0;
+  double rain_gain = 4.0;
   double rain_visibility_factor = 1.5;
   double rain_reference_px = 1663.0;
   double glass_brightness = 1.0;
