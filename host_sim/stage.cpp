@@ -11,6 +11,7 @@ namespace host {
 namespace {
 
 constexpr double kBrakeLights_mps2 = -0.7;  // coasting does not light them
+constexpr float kOpenPlace = 0.9F;           // a place that sees so much of the sky is lit as the open field is
 
 bool hasModels(const std::filesystem::path& folder) {
   std::error_code error;
@@ -23,6 +24,14 @@ std::optional<std::filesystem::path> upwards(std::filesystem::path folder) {
     if (folder == folder.root_path()) break;
   }
   return std::nullopt;
+}
+
+// The light about a place that sees the share `open` of the sky: water on the glass of a car in a tunnel is not lit by the day outside.
+LightSummary lightAt(LightSummary light, float open) {
+  light.sky_radiance *= open;
+  light.ground_radiance *= open;
+  if (open < kOpenPlace) light.environment_cube = 0;
+  return light;
 }
 
 }  // namespace
@@ -143,7 +152,7 @@ void Stage::draw(int64_t time_ns, const Target& target, uint32_t framebuffer, in
   else renderer_->drawWorld(eye.view, target, std::span(&*car_instance_, 1));
   if (inside) renderer_->drawParts(eye.view, target, *car_instance_, kBody | kWipers);
   plugin_->drawWorld(plugin_ns, view, target, light);
-  plugin_->drawGlass(plugin_ns, view, target, light);
+  plugin_->drawGlass(plugin_ns, view, target, lightAt(light, static_cast<float>(renderer_->skyVisibility(eye.position_m))));
   plugin_->drawFinish(plugin_ns, view, target, light);
   renderer_->toneMap(target, framebuffer, exposureFor(simulation_->adaptedLuminance()));
 }
