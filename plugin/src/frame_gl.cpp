@@ -194,12 +194,14 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
   }
   const glass::LookView view{request.view.eyeFromWorld, request.view.clipFromEye, request.viewport_px, request.view.clip_zero_to_one,
                              request.view.reversed_depth};
+  glass::LookTarget target = request.target;
+  target.depth_texture = request.depth_texture;
   glass::LookLight light;
   light.environment_cube = request.lighting.environment_cube;
   light.sky_radiance = request.lighting.sky_radiance;
   light.ground_radiance = request.lighting.ground_radiance;
   light.cabin_share = request.view.vehicle != 0 ? kCabinLight : 1.0f;
-  for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i) gl.look->drawPanes(seen, view, request.target, light);
+  for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i) gl.look->drawPanes(seen, view, target, light);
   gl::throwOnError(gl.context->gl, "draw_glass");
   return guarded.touched();
 }

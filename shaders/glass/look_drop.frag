@@ -1,5 +1,6 @@
 // A pixel of a drop: the ray from the eye is traced through the cap, face by face, and what leaves it looks up its surroundings.
 #include "shared/optics_drop.glsl"
+#include "optics/near.glsl"
 #include "optics/seen_drop.glsl"
 #include "optics/surroundings.glsl"
 
@@ -9,6 +10,8 @@ in vec2 base;
 flat in int which;
 
 layout(location = 0) out vec4 color;
+
+const float kEnlarged = 0.25;  // of the way to the middle; so little that a blade stays whole (unsourced)
 
 mat3 world_from_drop;
 bool eye_outside;
@@ -107,13 +110,20 @@ vec3 lightThrough(Cap cap, vec2 place, vec3 d, float footprint) {
   return light + (1.0 - reflected) * traceInside(cap, p, inner, footprint, spread);
 }
 
+// What stands close behind the drop: the visible picture, enlarged about the drop's middle as by a weak lens. `inwards`: to the middle, px.
+vec3 enlarged(vec2 inwards) {
+  vec2 at = gl_FragCoord.xy - frame.viewport.xy + kEnlarged * inwards;
+  return decode(textureLod(picture, at / frame.viewport.zw, 0.0).rgb);
+}
+
 void main() {
   SeenDrop drop = seen[which];
   mat3 vehicle_from_drop = mat3(drop.head_stretch.xyz, cross(drop.normal_pixel.xyz, drop.head_stretch.xyz), drop.normal_pixel.xyz);
   world_from_drop = mat3(frame.world_from_vehicle) * vehicle_from_drop;
   Cap cap = Cap(drop.cap_outline.x, drop.cap_outline.y, drop.head_stretch.w);
   vec3 middle_from_eye = (drop.position_radius.xyz - frame.eye_in_vehicle.xyz) * vehicle_from_drop;
-  vec3 d = normalize(middle_from_eye + vec3(base * drop.position_radius.w, 0.0));
+  vec3 to_glass = middle_from_eye + vec3(base * drop.position_radius.w, 0.0);
+  vec3 d = normalize(to_glass);
   eye_outside = d.z < 0.0;
   cabin = decode(textureLod(picture, (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw, 3.0).rgb);
   vec2 dx = dFdx(base);
@@ -132,6 +142,8 @@ void main() {
   if (cover <= 0.0) discard;
   float footprint = sqrt(abs(dx.x * dy.y - dx.y * dy.x) * max(abs(d.z), 0.05));
   vec3 light = lightThrough(cap, middle / cover, d, footprint);
+  float near = eye_outside ? 0.0 : nearness(behindGlass_m(length(to_glass)), d.z);
+  if (near > 0.0) light = mix(light, enlarged(inverse(mat2(dx, dy)) * -base), near);
   float alpha = cover / (count * count) * drop.beside_phase.z;
   color = vec4(encode(frame.brightness * light) * alpha, alpha);
 }

@@ -1,5 +1,6 @@
 // A pixel of the pane: the picture behind it, bent by the film's surface, blurred by droplets too small to be seen one by one.
 #include "optics/bicubic.glsl"
+#include "optics/near.glsl"
 #include "optics/surroundings.glsl"
 #include "shared/optics_drop.glsl"
 
@@ -63,7 +64,12 @@ void main() {
   if (dot(transmitted, transmitted) < 0.5) transmitted = view;
   float flat_reflectance = fresnel(max(dot(within, normal), 0.0), 1.0 / kWaterIndex);
   float more = max(fresnel(max(dot(within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
-  vec2 shift = inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view);
+  float to_glass_m = length(i.from_eye);
+  float behind_m = behindGlass_m(to_glass_m);
+  beads *= 1.0 - nearness(behind_m, dot(view, normal));
+  // A view bent at the glass misses what stands close behind it by less than what is far.
+  float lever = behind_m / (behind_m + to_glass_m);
+  vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
   vec3 blurred = throughDroplets(at + shift);
   vec3 light = mix(behind(at, shift), blurred, beads);
   // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
@@ -75,8 +81,8 @@ void main() {
   if (dot(transmitted, transmitted) < 0.5) transmitted = view;
   float first = fresnel(max(-dot(view, surface), 0.02), wet ? kWaterIndex : kWindowIndex);
   float reflectance = first + (1.0 - first) * (1.0 - first) * fresnel(max(-dot(view, normal), 0.02), kWindowIndex);
-  float nearness = kBehindGlass_m / (kBehindGlass_m + length(i.from_eye));
-  vec2 shift = nearness * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
+  float lever = kBehindGlass_m / (kBehindGlass_m + length(i.from_eye));
+  vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
   vec3 light = frame.brightness * mix(behind(at, shift), throughDroplets(at + shift), beads);
   vec3 reflected = mat3(frame.world_from_vehicle) * reflect(view, surface);
   light = mix(light, surroundings(reflected, 0.02 + 4.0 * length(fwidth(slope))), reflectance);

@@ -11,6 +11,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 sky_radiance;
   vec4 ground_radiance;
   vec4 viewport;            // px: x, y, width, height
+  vec4 depth_rows;          // what makes depth of view: projection [2][2], [3][2], [2][3], [3][3]
   vec2 uv_per_m;            // pane's uv for a grid metre
   float drop_age_s;
   int drop_count;
@@ -21,7 +22,7 @@ layout(std140, binding = 0) uniform Frame {
   float brightness;
   float blur;
   float fine_radius_px;     // drops smaller than this are sampled four times a pixel
-  uint unused;
+  uint depth_seen;          // 0: the target's depth is not given; 1: it is -1 .. 1; 2: 0 .. 1
   uint srgb;                // the target and `picture` are encoded
   uint internal_reflections;
   uint dry_reflection;

@@ -103,6 +103,11 @@ Picture draw(const GladGLContext& gl, glass::GlassLook& look, const Scene& scene
   glass::LookTarget where;
   where.framebuffer = target.name();
   where.color_texture = color.name();
+  if (!scene.depths.empty()) {
+    depth.write(0, 0, 0, 0, scene.size_px.x, scene.size_px.y, GL_DEPTH_COMPONENT, GL_FLOAT,
+                scene.depths.data());
+    where.depth_texture = depth.name();
+  }
   where.width_px = scene.size_px.x;
   where.height_px = scene.size_px.y;
   look.drawPanes(panes, scene.view, where, scene.light);

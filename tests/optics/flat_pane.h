@@ -48,6 +48,7 @@ struct Scene {
   glm::ivec2 size_px{0};
   std::vector<glm::vec4> picture;  // rows from the bottom; empty: black
   float depth = -1.0f;             // that the target's depth holds; < 0: the farthest
+  std::vector<float> depths;       // or of each pixel; the look may read it then
 };
 Picture draw(const GladGLContext& gl, glass::GlassLook& look, const Scene& scene,
              std::span<const glass::LookPane> panes);

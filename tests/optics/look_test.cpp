@@ -126,6 +126,54 @@ TEST_F(Look, everyDepthConventionShowsTheSame) {
   EXPECT_EQ(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.0f);
 }
 
+// A black blade `behind_m` off the glass in the picture's left half, bright sky all around; whether wet glass
+// leaves it black.
+class NearThing : public Look {
+ protected:
+  // Mean light of the left half's middle strip, with drops and film in front of it.
+  double lightOfBlade(double behind_m, bool reversed) {
+    FlatPane pane(gl, kRake, 0.8, 64);
+    pane.putFilm([](double u, double) { return 2e-4 * (1.0 + std::sin(80.0 * u)); });
+    pane.putDrops(scatter(pane, 1500, 3e-3, glm::radians(60.0), 8));
+    const gl::TextureCube white = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(1.0f); });
+    Scene scene = inside({320, 180});
+    scene.light.environment_cube = white.name();
+    scene.picture = paint(scene.size_px, [](int x, int) { return glm::vec3(x < 160 ? 0.0f : 1.0f); });
+    if (reversed) {
+      scene.view.clipFromEye[2] = glm::dvec4(0.0, 0.0, 0.0, -1.0);
+      scene.view.clipFromEye[3] = glm::dvec4(0.0, 0.0, 0.05, 0.0);
+      scene.view.clip_zero_to_one = scene.view.reversed_depth = true;
+    }
+    const glm::dvec3 eye_m(-0.65, 0.0, 0.0);
+    for (int y = 0; y < 180; ++y) {
+      // Where the pixels' rays, which all lean by the row alone, meet a plane `behind_m` off the glass.
+      const double rise = (y + 0.5 - 90.0) / 160.0 * std::tan(0.5 * kFov);
+      const double along_m =
+          (behind_m - glm::dot(eye_m, pane.outward)) / glm::dot(glm::dvec3(1.0, 0.0, rise), pane.outward);
+      const glm::dvec4 clip = scene.view.clipFromEye * glm::dvec4(0.0, 0.0, -along_m, 1.0);
+      const double ndc = clip.z / clip.w;
+      const auto blade = static_cast<float>(reversed ? ndc : 0.5 * ndc + 0.5);
+      for (int x = 0; x < 320; ++x) scene.depths.push_back(x < 160 ? blade : reversed ? 0.0f : 1.0f);
+    }
+    const Picture seen = draw(gl, look, scene, {&pane.pane, 1});
+    double sum = 0.0;
+    for (int y = 60; y < 120; ++y) {
+      for (int x = 40; x < 150; ++x) sum += static_cast<double>(seen.at(x, y).x);
+    }
+    return sum / (60.0 * 110.0);
+  }
+};
+
+TEST_F(NearThing, aBladeCloseBehindWetGlassStaysWholeInEveryDepthConvention) {
+  EXPECT_LT(lightOfBlade(0.03, false), 0.01);
+  EXPECT_LT(lightOfBlade(0.03, true), 0.01);
+}
+
+TEST_F(NearThing, whatStandsFartherOffIsLookedPastByDrops) {
+  EXPECT_GT(lightOfBlade(2.0, false), 0.2);
+  EXPECT_NEAR(lightOfBlade(2.0, true), lightOfBlade(2.0, false), 0.02);
+}
+
 TEST_F(Look, farFromTheWorldsOriginNothingTrembles) {
   FlatPane pane(gl, kRake, 0.8, 64);
   pane.putDrops(scatter(pane, 200, 2e-3, glm::radians(60.0), 5));

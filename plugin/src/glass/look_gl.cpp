@@ -24,22 +24,22 @@ constexpr float kFineRadius_px = 6.0f;
 
 const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
 
-enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4 };
+enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
 // As in shaders/optics/look_frame.glsl (std140).
 struct FrameBlock {
   glm::mat4 clip_from_eye, eye_from_vehicle, eye_from_world, world_from_vehicle;
-  glm::vec4 eye_in_vehicle, sky_radiance, ground_radiance, viewport;
+  glm::vec4 eye_in_vehicle, sky_radiance, ground_radiance, viewport, depth_rows;
   glm::vec2 uv_per_m;
   float drop_age_s;
   int32_t drop_count;
   float exposure, pixels_per_rad, environment_texels_per_rad, cabin_share;
   float brightness, blur, fine_radius_px;
-  uint32_t unused;
+  uint32_t depth_seen;
   uint32_t srgb, internal_reflections, dry_reflection;
   float film_unit_m3;
 };
-static_assert(sizeof(FrameBlock) == 384, "std140 lays it out so");
+static_assert(sizeof(FrameBlock) == 400, "std140 lays it out so");
 
 glm::mat4 rotationOf(const glm::dmat4& m) { return glm::mat4(glm::dmat4(glm::dmat3(m))); }
 
@@ -83,7 +83,7 @@ struct GlassLook::Parts {
 
   void fillFrame(const LookPane& pane, const LookView& view, const LookTarget& target, const LookLight& light,
                  const LookSettings& settings);
-  void bindLook(const LookLight& light);
+  void bindLook(const LookLight& light, const LookTarget& target);
   void setState(const LookView& view, const LookTarget& target);
   void composeFilm(const LookPane& pane);
   void drawFilm(const LookPane& pane);
@@ -124,6 +124,8 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.sky_radiance = glm::vec4(light.sky_radiance, 0.0f);
   block.ground_radiance = glm::vec4(light.ground_radiance, 0.0f);
   block.viewport = glm::vec4(view.viewport_px);
+  const glm::dmat4& clip = view.clipFromEye;
+  block.depth_rows = glm::dvec4(clip[2][2], clip[3][2], clip[2][3], clip[3][3]);
   block.uv_per_m = 1.0f / (pane.texel_m * glm::vec2(glm::max(pane.film_size, glm::ivec2(1))));
   block.drop_age_s = pane.drop_age_s;
   block.drop_count = pane.drop_count;
@@ -135,6 +137,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.brightness = settings.brightness;
   block.blur = settings.blur;
   block.fine_radius_px = kFineRadius_px;
+  if (target.depth_texture != 0) block.depth_seen = view.clip_zero_to_one ? 2 : 1;
   block.srgb = target.srgb;
   block.internal_reflections = static_cast<uint32_t>(std::clamp(settings.internal_reflections, 0, 6));
   block.dry_reflection = settings.dry_reflection;
@@ -143,8 +146,8 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block.name());
 }
 
-// What all of the look's shaders see by: the fetched picture and the environment.
-void GlassLook::Parts::bindLook(const LookLight& light) {
+// What all of the look's shaders see by: the fetched picture, the environment, the target's depth.
+void GlassLook::Parts::bindLook(const LookLight& light, const LookTarget& target) {
   gl.BindTextureUnit(kPicture, picture.texture());
   gl.BindSampler(kPicture, mipped.name());
   const uint32_t environment = environmentOf(light);
@@ -152,6 +155,9 @@ void GlassLook::Parts::bindLook(const LookLight& light) {
   gl.BindTextureUnit(kSurroundings, environment != 0 ? environment : no_environment.name());
   gl.BindSampler(kSurroundings, mipped.name());
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  gl.BindTextureUnit(kDepth, target.depth_texture != 0 ? target.depth_texture : no_film.name());
+  gl.BindSampler(kDepth, exact.name());
+  gl.TextureBarrier();  // read while it is tested against, which is allowed as it is not written
 }
 
 void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) {
@@ -272,7 +278,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     p.fillFrame(pane, view, target, light, settings);
     if (pane.film != 0) p.composeFilm(pane);
     p.setState(view, target);
-    p.bindLook(light);
+    p.bindLook(light, target);
     p.drawFilm(pane);
     if (pane.drop_count > 0) {
       p.placeDrops(pane);

@@ -31,8 +31,10 @@ struct LookTarget {
   uint32_t color_texture = 0;
   int32_t width_px = 0;
   int32_t height_px = 0;
-  bool srgb = false;      // what is in the target is encoded in sRGB; else linear radiance
-  float exposure = 1.0f;  // what radiance was multiplied with before it was written
+  bool srgb = false;           // what is in the target is encoded in sRGB; else linear radiance
+  float exposure = 1.0f;       // what radiance was multiplied with before it was written
+  uint32_t depth_texture = 0;  // what the framebuffer tests depth against, or 0; then things close behind the
+                               // glass (a wiper's arm) are not told from those far away
 };
 
 // Light that water and glass show besides the visible picture. Radiance in the host's unit.
