@@ -142,7 +142,7 @@ uint32_t Frame::prepareCaptures(const ViewState& view, int max_faces, const glas
   gl::StateGuard guarded = gl.guard(kDrawTouches);
   const gl::ScopedStage timed(timers_, stage_.captures);
   gl.look->settings.capture_size_px = static_cast<int>(settings().glass_capture_px);
-  if (draw) gl.look->capture(view.eyeFromWorld, max_faces, draw);
+  if (draw) gl.look->capture(view.eyeFromWorld, max_faces, draw, {view.clip_zero_to_one, view.reversed_depth});
   else gl.look->dropCapture();
   gl::throwOnError(gl.context->gl, "prepare_captures");
   return guarded.touched();

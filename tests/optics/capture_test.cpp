@@ -67,6 +67,28 @@ TEST_F(Capture, renewsTheForwardFaceMostButNoneNever) {
   for (const int count : seen) EXPECT_GE(count, 4);
 }
 
+TEST_F(Capture, depthOfItsPicturesIsThatOfTheHostsViews) {
+  for (const bool zero_to_one : {false, true}) {
+    for (const bool reversed : {false, true}) {
+      glm::dmat4 clip(0.0);
+      capture.renew(
+          eye, kSize_px, 1,
+          [&](uint32_t, int, const glm::dmat4&, const glm::dmat4& clipFromEye) { clip = clipFromEye; },
+          {zero_to_one, reversed});
+      const auto depth = [&](double distance_m) {
+        const glm::dvec4 at = clip * glm::dvec4(0.0, 0.0, -distance_m, 1.0);
+        return at.z / at.w;
+      };
+      const double nearest = zero_to_one ? 0.0 : -1.0;
+      for (const double distance_m : {0.3, 10.0, 1000.0}) {
+        EXPECT_GT(depth(distance_m), nearest);
+        EXPECT_LT(depth(distance_m), 1.0);
+        EXPECT_EQ(depth(distance_m) < depth(2.0 * distance_m), !reversed);
+      }
+    }
+  }
+}
+
 TEST_F(Capture, showsInEachDirectionWhatLiesThere) {
   renew(6);
   std::vector<glm::vec4> pixels(kSize_px * kSize_px * 6);

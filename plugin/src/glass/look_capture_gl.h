@@ -15,7 +15,8 @@ class LookCapture {
 
   // Renews at most `max_faces` faces around the eye: those that have waited longest, where the forward one
   // counts as waiting four times as long.
-  void renew(const glm::dmat4& eyeFromWorld, int size_px, int max_faces, const DrawScene& draw);
+  void renew(const glm::dmat4& eyeFromWorld, int size_px, int max_faces, const DrawScene& draw,
+             DepthUse depth = {});
   void drop();
   void forget();
 

@@ -287,8 +287,9 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
   }
 }
 
-void GlassLook::capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw) {
-  parts_->capture.renew(eyeFromWorld, settings.capture_size_px, max_faces, draw);
+void GlassLook::capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw,
+                        DepthUse depth) {
+  parts_->capture.renew(eyeFromWorld, settings.capture_size_px, max_faces, draw, depth);
 }
 
 void GlassLook::dropCapture() { parts_->capture.drop(); }

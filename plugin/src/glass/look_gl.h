@@ -83,8 +83,14 @@ struct LookSettings {
   bool dry_reflection = true;    // dry glass reflects its surroundings when looked at from outside
 };
 
+// What a host's depth means: GL's -1 .. 1 or 0 .. 1, and whether it falls with distance.
+struct DepthUse {
+  bool zero_to_one = false;
+  bool reversed = false;
+};
+
 // Draws scene and sky (no rain, panes, cabin) into `framebuffer`, whole viewport `size_px`, with these
-// matrices; GL's usual depth.
+// matrices.
 using DrawScene = std::function<void(uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld,
                                      const glm::dmat4& clipFromEye)>;
 
@@ -105,8 +111,8 @@ class GlassLook {
                  const LookLight& light);
 
   // Renews the captured surroundings of the eye: at most `max_faces` pictures in this call, the forward one
-  // most often.
-  void capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw);
+  // most often. `depth`: what the pictures' matrices make of distance; as the host's own views do.
+  void capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw, DepthUse depth = {});
   // Captured pictures are no longer used (the host stopped giving them, or the eye was put elsewhere).
   void dropCapture();
 
