@@ -9,4 +9,5 @@ void main() {
   if (i >= count) return;
   ivec2 cell = cellOf(adds[i].texel);
   imageStore(film, cell, ivec4(imageLoad(film, cell).x + passed(adds[i].volume_pl)));
+  wake(adds[i].texel);
 }

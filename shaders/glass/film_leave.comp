@@ -19,5 +19,6 @@ void main() {
   for (int k = 0; k < leave.count; ++k) {
     int share = k == 0 ? volume - each * (leave.count - 1) : each;
     imageAtomicAdd(film, cellOf(texels[leave.first + k]), share);
+    wake(texels[leave.first + k]);
   }
 }

@@ -14,5 +14,7 @@ void main() {
   SweptTexel entry = swept[first + i];
   if (ridge_before_pl[entry.segment] > kFullRidge_pl) return;
   int volume = imageAtomicMin(film, cellOf(entry.texel), residual_pl);
-  if (volume > residual_pl) atomicAdd(ridge_pl[entry.segment], passed(volume - residual_pl));
+  if (volume <= residual_pl) return;
+  atomicAdd(ridge_pl[entry.segment], passed(volume - residual_pl));
+  wake(entry.texel);
 }

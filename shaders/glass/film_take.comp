@@ -13,4 +13,5 @@ void main() {
   int taken = shareOf(volume, takes[i].share_65536);
   imageStore(film, cell, ivec4(volume - taken));
   taken_pl[i] = passed(taken);
+  wake(takes[i].texel);
 }

@@ -1,5 +1,5 @@
 // What one film step does to a texel, from whole picolitres to whole picolitres: taken here, given there, so water is neither made nor lost in any
-// order. Runs in shaders/glass/film_step.comp, and in C++ for tests.
+// order. Runs in shaders/glass/film_wish.comp and film_flow.comp, and in C++ for tests.
 #ifndef RG_SHARED_GLASS_FILM_GLSL
 #define RG_SHARED_GLASS_FILM_GLSL
 #include "shared/compat.glsl"
@@ -17,7 +17,7 @@ RG_CONST float kShear_per_pa_s = 1.0f / (2.0f * 1.0e-3f);     // 1 / (2 mu)
 struct FilmStepInfo {
   int columns;
   int rows;
-  uint step;             // low bits of its number, for what is random
+  uint step;             // low bits of its last tick's number, two ticks a step
   uint pane;
   float up_x;            // unit, grid axes: to the upper edge
   float up_y;
@@ -41,10 +41,9 @@ struct FilmCell {
 RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
 
 // Field between the corners of a tile. `f` in 0..1.
+RG_FN vec4 between(RG_IN(vec4) a, RG_IN(vec4) b, float f) { return a + (b - a) * f; }
 RG_FN vec4 betweenNodes(RG_IN(vec4) a, RG_IN(vec4) b, RG_IN(vec4) c, RG_IN(vec4) d, vec2 f) {
-  vec4 low = a + (b - a) * f.x;
-  vec4 high = c + (d - c) * f.x;
-  return low + (high - low) * f.y;
+  return between(between(a, b, f.x), between(c, d, f.x), f.y);
 }
 
 // Mean velocity q / h of a film: Nusselt 1916, q = rho g h^3 / (3 mu), and a wind's shear on its surface, q = tau h^2 / (2 mu).
@@ -102,9 +101,13 @@ RG_FN int faceFlow_pl(RG_IN(FilmCell) a, int a_pl, uint a_texel, RG_IN(FilmCell)
   return flow;
 }
 
+// A tile dries in every eighth step, for all eight: what else lies still on it need not be looked at in the steps between.
+RG_CONST uint kDryingSteps = 8u;
+RG_FN bool driesNow(uint tile, RG_IN(FilmStepInfo) info) { return (tile + info.step / 2u) % kDryingSteps == 0u; }
+
 // Whole picolitres out of a rate: the rest by chance, so that the mean is right.
 RG_FN int evaporated_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
-  float wish = info.evaporation_mps * kFilmStep_s / (metric.z * kPicolitre_m3);
+  float wish = info.evaporation_mps * (float(kDryingSteps) * kFilmStep_s) / (metric.z * kPicolitre_m3);
   int whole = int(floor(wish + unitFloat(pcg(texel + pcg(info.step ^ info.pane)))));
   return max(min(volume_pl, whole), 0);
 }

@@ -88,7 +88,10 @@ class FilmReference {
       const shared::vec4 metric = field(map_.nodeMetric(), x, y);
       const auto texel = static_cast<uint32_t>(i);
       int volume = flowed(i, cells, order.info, tile);
-      const int dried = shared::evaporated_pl(volume, texel, metric, order.info);
+      const auto tile_index = static_cast<uint32_t>(&tile - report.tiles.data());
+      const int dried = shared::driesNow(tile_index, order.info)
+                            ? shared::evaporated_pl(volume, texel, metric, order.info)
+                            : 0;
       tile.evaporated_pl += dried;
       volume -= dried;
       at(i) = volume;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
+constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);  // TileState in film_buffers.glsl
 constexpr size_t kRidgeBytes = (2 * kRidgePieces + 1) * sizeof(int32_t);
 
 size_t aligned(size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
@@ -56,14 +57,16 @@ FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky)
       ridge(gl, {"glass/ridge_add.comp"}, defines(leaky == FilmKernel::ridge)),
       sweep(gl, {"glass/film_sweep.comp"}, defines(leaky == FilmKernel::sweep)),
       leave(gl, {"glass/film_leave.comp"}, defines(leaky == FilmKernel::leave)),
-      step(gl, {"glass/film_step.comp"}, defines(leaky == FilmKernel::step)) {}
+      wish(gl, {"glass/film_wish.comp"}, {}),
+      flow(gl, {"glass/film_flow.comp"}, defines(leaky == FilmKernel::step)) {}
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
   return std::make_shared<FilmPrograms>(gl, leaky);
 }
 
 void abandonFilmPrograms(FilmPrograms& p) {
-  for (gl::Program* program : {&p.take, &p.add, &p.ridge, &p.sweep, &p.leave, &p.step}) program->forget();
+  for (gl::Program* program : {&p.take, &p.add, &p.ridge, &p.sweep, &p.leave, &p.wish, &p.flow})
+    program->forget();
 }
 
 FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map)
@@ -71,22 +74,27 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       programs_(std::move(programs)),
       map_(map),
       tiles_(map.tileArea_m2().size()),
-      films_{{gl, GL_R32I, map.grid().size.x, map.grid().size.y},
-             {gl, GL_R32I, map.grid().size.x, map.grid().size.y}},
+      film_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
+      wishes_(gl, GL_RGBA32I, map.grid().size.x, map.grid().size.y),
       ridges_(gl, kRidgeBytes),
+      states_(gl, tiles_ * kTileStateBytes),
       metric_(gl, std::span<const shared::vec4>(map.nodeMetric())) {
   clear();
 }
 
 // Dry inside, -1 off the pane.
 void FilmGl::clear() {
-  std::vector<int32_t> dry(static_cast<size_t>(map_.texelCount()), -1);
+  std::vector<int32_t> dry;
+  std::vector<glm::ivec4> no_wishes;
   for (int i = 0; i < map_.texelCount(); ++i) {
-    if (map_.inside(i)) dry[static_cast<size_t>(i)] = 0;
+    dry.push_back(map_.inside(i) ? 0 : -1);
+    no_wishes.emplace_back(dry.back(), 0, 0, 0);
   }
-  for (gl::Texture2D& film : films_)
-    film.write(0, 0, 0, 0, map_.grid().size.x, map_.grid().size.y, GL_RED_INTEGER, GL_INT, dry.data());
+  const glm::ivec2 size = map_.grid().size;
+  film_.write(0, 0, 0, 0, size.x, size.y, GL_RED_INTEGER, GL_INT, dry.data());
+  wishes_.write(0, 0, 0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_INT, no_wishes.data());
   ridges_.zero();
+  states_.zero();
 }
 
 void FilmGl::run(std::vector<FilmOrder>&& orders) {
@@ -165,7 +173,9 @@ void FilmGl::runStep(const FilmOrder& order, const Batch& batch, size_t upload_a
   gl_.BindBufferRange(GL_UNIFORM_BUFFER, 0, batch.upload.name(), static_cast<GLintptr>(upload_at + at.info),
                       sizeof(shared::FilmStepInfo));
   bind(1, ridges_, 0, kRidgeBytes);
-  gl_.BindImageTexture(0, films_[current_].name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32I);
+  bind(5, states_, 0, tiles_ * kTileStateBytes);
+  gl_.BindImageTexture(0, film_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32I);
+  gl_.BindImageTexture(1, wishes_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32I);
   if (!order.takes.empty()) {
     orders(at.takes, order.takes.size() * sizeof(shared::FilmTake));
     bind(2, batch.report, report_at + report.taken, kMostTakes * sizeof(int));
@@ -197,16 +207,16 @@ void FilmGl::runStep(const FilmOrder& order, const Batch& batch, size_t upload_a
     dispatch(programs_->leave, order.leaves.size());
   }
   bind(2, batch.report, report_at, tiles_ * sizeof(shared::FilmTile));
-  orders(at.drive, order.drive.size() * sizeof(shared::vec4));
   bind(3, batch.upload, upload_at + at.drive, order.drive.size() * sizeof(shared::vec4));
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, metric_.name());
-  gl_.BindImageTexture(0, films_[current_].name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_R32I);
-  gl_.BindImageTexture(1, films_[1 - current_].name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32I);
-  programs_->step.use();
-  gl_.DispatchCompute(static_cast<GLuint>(map_.tileCount().x), static_cast<GLuint>(map_.tileCount().y), 1);
+  const auto tiles = glm::uvec2(map_.tileCount());
+  programs_->wish.use();
+  gl_.DispatchCompute(tiles.x, tiles.y, 1);
+  gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  programs_->flow.use();
+  gl_.DispatchCompute(tiles.x, tiles.y, 1);
   gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
-  current_ = 1 - current_;
   gl_.CopyNamedBufferSubData(ridges_.name(), batch.report.name(), 0,
                              static_cast<GLintptr>(report_at + report.ridges), kRidgeBytes);
 }
@@ -266,8 +276,10 @@ std::vector<int32_t> FilmGl::readRidges() const {
 }
 
 void FilmGl::abandon() {
-  for (gl::Texture2D& film : films_) film.forget();
+  film_.forget();
+  wishes_.forget();
   ridges_.forget();
+  states_.forget();
   metric_.forget();
   for (Swept& swept : swept_) swept.buffer.forget();
   while (!pending_.empty()) {
@@ -279,10 +291,7 @@ void FilmGl::abandon() {
     batch->report.forget();
     batch->fence.forget();
   }
-  for (gl::Program* program : {&programs_->take, &programs_->add, &programs_->ridge, &programs_->sweep,
-                               &programs_->leave, &programs_->step}) {
-    program->forget();
-  }
+  abandonFilmPrograms(*programs_);
 }
 
 }  // namespace rg::glass

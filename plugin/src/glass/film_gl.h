@@ -1,4 +1,4 @@
-// A pane's film on the GPU: two textures of whole picolitres, the ridges of its blades, and batches of steps
+// A pane's film on the GPU: a texture of whole picolitres, the ridges of its blades, and batches of steps
 // under way.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace rg::glass {
 class FilmPrograms {
  public:
   FilmPrograms(const GladGLContext& gl, FilmKernel leaky);
-  gl::Program take, add, ridge, sweep, leave, step;
+  gl::Program take, add, ridge, sweep, leave, wish, flow;
 };
 
 class FilmGl {
@@ -31,7 +31,7 @@ class FilmGl {
   // Reports of the oldest batch once the GPU is done with it; `wait` waits for it. Empty: not yet.
   std::vector<FilmReport> collect(bool wait);
 
-  const gl::Texture2D& film() const { return films_[current_]; }
+  const gl::Texture2D& film() const { return film_; }
   std::vector<int32_t> readFilm() const;
   std::vector<int32_t> readRidges() const;
   void abandon();
@@ -65,9 +65,8 @@ class FilmGl {
   std::shared_ptr<FilmPrograms> programs_;
   const PaneMap& map_;
   size_t tiles_;
-  gl::Texture2D films_[2];
-  size_t current_ = 0;
-  gl::Buffer ridges_, metric_;
+  gl::Texture2D film_, wishes_;
+  gl::Buffer ridges_, states_, metric_;
   std::vector<Swept> swept_;
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;

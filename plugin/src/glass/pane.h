@@ -103,7 +103,7 @@ struct PaneStats {
   int64_t drained_pl = 0, wiped_pl = 0, blown_pl = 0, evaporated_pl = 0;
   int64_t film_pl = 0, drops_pl = 0, ridge_pl = 0, travelling_pl = 0;
   uint64_t dropped_ticks =
-      0;  // ticks not run because the GPU's part was not called for more than two seconds
+      0;  // ticks not run because the GPU's part was not called for more than four seconds
 };
 
 // Immutable; made after each submit that ran a tick, handed to the GL thread.
