@@ -71,7 +71,7 @@ bool keepsBudget(const Budget& budget, const std::vector<rg_stage_stats>& stages
   std::printf("%-16s %12s %12s\n", "stage", "measured", "allowed");
   bool kept = true;
   for (const auto& [name, allowed] : budget) {
-    const auto stage = std::ranges::find_if(stages, [&](const rg_stage_stats& s) { return name == s.name; });
+    const auto stage = std::ranges::find_if(stages, [&wanted = name](const rg_stage_stats& s) { return wanted == s.name; });
     if (stage == stages.end() || stage->samples == 0) {
       std::printf("%-16s %12s %9.3f %s  never ran\n", name.c_str(), "-", allowed, unit);
       kept = false;

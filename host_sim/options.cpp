@@ -33,7 +33,7 @@ std::vector<double> parseShots(const std::string& text) {
     shots.push_back(t);
   }
   std::ranges::sort(shots);
-  shots.erase(std::ranges::unique(shots).begin(), shots.end());
+  shots.erase(std::unique(shots.begin(), shots.end()), shots.end());
   return shots;
 }
 

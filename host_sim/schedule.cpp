@@ -52,6 +52,7 @@ std::vector<Event> schedule(const Options& options, double seconds) {
   }
   at(end_ns).update = true;
   std::vector<Event> list;
+  list.reserve(events.size());
   for (auto& [time, event] : events) list.push_back(std::move(event));
   return list;
 }

@@ -102,7 +102,8 @@ double Route::nearestWay(const glm::dvec3& position_m, double near_m) const {
   const double window_m = near_m < 0.0 ? length_m() : 30.0;
   const double start = near_m < 0.0 ? 0.0 : near_m - window_m;
   double best_m = start, best = std::numeric_limits<double>::max();
-  for (double w = start; w <= start + 2.0 * window_m; w += kStep_m) {
+  for (int i = 0; i <= static_cast<int>(2.0 * window_m / kStep_m); ++i) {
+    const double w = start + i * kStep_m;
     const glm::dvec3 d = position(w) - position_m;
     if (glm::dot(d, d) < best) {
       best = glm::dot(d, d);
