@@ -1,8 +1,7 @@
 // A pixel of a drop: the ray from the eye is traced through the cap, face by face, and what leaves it looks up its surroundings.
-#include "shared/optics_drop.glsl"
+#include "optics/drop_light.glsl"
 #include "optics/near.glsl"
 #include "optics/seen_drop.glsl"
-#include "optics/surroundings.glsl"
 
 layout(std430, binding = 2) readonly buffer Seen { SeenDrop seen[]; };
 
@@ -12,44 +11,6 @@ flat in int which;
 layout(location = 0) out vec4 color;
 
 const float kEnlarged = 0.25;  // of the way to the middle; so little that a blade stays whole (unsourced)
-
-mat3 world_from_drop;
-bool eye_outside;
-vec3 cabin;  // what an eye outside sees close behind the glass
-
-// Light that arrives from where a ray leaves to, drop's frame.
-vec3 arriving(vec3 direction, float spread_rad) {
-  vec3 light = surroundingsOfGlass(world_from_drop * direction, world_from_drop[2], spread_rad);
-  return eye_outside && direction.z < 0.0 ? cabin : light;
-}
-
-// Follows a ray that has entered. At each face a share leaves by Fresnel, the rest stays. A pixel's bundle of rays is `footprint` wide and
-// widens by `spread` rad for each radius of path; both are followed across the plane of incidence (d' = n d - (n cos i - cos t) N, N' = x / R),
-// where a bundle spreads least, so that pictures in drops stay sharp.
-vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread) {
-  vec3 sum = vec3(0.0);
-  float staying = 1.0;
-  for (uint k = 0u; k <= frame.internal_reflections; ++k) {
-    InnerHit hit = nextFace(cap, p, d);
-    float cosine = dot(d, hit.normal);
-    float curvature = hit.normal.z > -0.999 ? 1.0 / cap.radius : 0.0;
-    float reflected = fresnel(cosine, 1.0 / kWaterIndex);
-    float leaving = staying * (1.0 - reflected);
-    float across = footprint + spread * hit.path;  // of the ray bundle at this face
-    if (leaving > 0.004) {
-      vec3 out_direction = refract(d, -hit.normal, kWaterIndex);
-      float bend = (kWaterIndex * cosine - dot(out_direction, hit.normal)) * curvature * across;
-      sum += leaving * arriving(out_direction, abs(kWaterIndex * spread - bend));
-    }
-    staying *= reflected;
-    if (staying < 0.01) break;
-    spread = spread - 2.0 * curvature * across * cosine;
-    footprint = across;
-    d = reflect(d, hit.normal);
-    p = hit.position;
-  }
-  return sum + staying * arriving(d, 1.0);  // what is still inside leaves by many ways: the surroundings' mean about its direction
-}
 
 // Merged drops and those on dirty glass are not round, and those that run narrow towards the tail. Maps the glass so that the outline
 // becomes the ellipse that is traced.
@@ -84,32 +45,6 @@ float coverage(Cap cap, vec2 place, vec3 d, vec2 dx, vec2 dy) {
   return clamp(inside + 0.5, 0.0, 1.0);
 }
 
-// Light that comes along the view ray through a place on the glass, out of the drop. `footprint`: width of the pixel's rays there.
-vec3 lightThrough(Cap cap, vec2 place, vec3 d, float footprint) {
-  vec3 p = vec3(place, 0.0);
-  vec3 meet = meetCap(cap, p, d);
-  bool from_dry = d.z > 0.0;
-  float from_middle = length(vec2(place.x / cap.stretch, place.y));
-  bool through_base = from_dry && from_middle < 1.0;
-  bool on_cap = !through_base && meet.x * d.z > 0.0 && meet.z > 0.0;
-  vec3 normal = vec3(0.0, 0.0, -1.0);
-  if (on_cap) {
-    p += d * meet.x;
-    normal = capNormal(cap, p);
-  } else {  // a ray that just misses sees what its neighbour within does
-    p.xy *= min(1.0, 0.98 / max(from_middle, 1e-4));
-    if (!from_dry) normal = capNormal(cap, vec3(p.xy, 0.02));
-  }
-  float cosine = max(-dot(d, normal), 0.02);
-  float reflected = fresnel(cosine, kWaterIndex);
-  float curvature = on_cap ? 1.0 / cap.radius : 0.0;
-  vec3 light = vec3(0.0);
-  if (reflected > 0.004) light = reflected * arriving(reflect(d, normal), 2.0 * curvature * footprint * cosine);
-  vec3 inner = refract(d, normal, 1.0 / kWaterIndex);
-  float spread = curvature * footprint * (cosine / kWaterIndex + dot(inner, normal));
-  return light + (1.0 - reflected) * traceInside(cap, p, inner, footprint, spread);
-}
-
 // What stands close behind the drop: the visible picture, enlarged about the drop's middle as by a weak lens. `inwards`: to the middle, px.
 vec3 enlarged(vec2 inwards) {
   vec2 at = gl_FragCoord.xy - frame.viewport.xy + kEnlarged * inwards;
@@ -118,7 +53,7 @@ vec3 enlarged(vec2 inwards) {
 
 void main() {
   SeenDrop drop = seen[which];
-  mat3 vehicle_from_drop = mat3(drop.head_stretch.xyz, cross(drop.normal_pixel.xyz, drop.head_stretch.xyz), drop.normal_pixel.xyz);
+  mat3 vehicle_from_drop = mat3(drop.head_stretch.xyz, cross(drop.normal_reflections.xyz, drop.head_stretch.xyz), drop.normal_reflections.xyz);
   world_from_drop = mat3(frame.world_from_vehicle) * vehicle_from_drop;
   Cap cap = Cap(drop.cap_outline.x, drop.cap_outline.y, drop.head_stretch.w);
   vec3 middle_from_eye = (drop.position_radius.xyz - frame.eye_in_vehicle.xyz) * vehicle_from_drop;
@@ -141,7 +76,7 @@ void main() {
   }
   if (cover <= 0.0) discard;
   float footprint = sqrt(abs(dx.x * dy.y - dx.y * dy.x) * max(abs(d.z), 0.05));
-  vec3 light = lightThrough(cap, middle / cover, d, footprint);
+  vec3 light = lightThrough(cap, middle / cover, d, footprint, int(drop.normal_reflections.w));
   float near = eye_outside ? 0.0 : nearness(behindGlass_m(length(to_glass)), d.z);
   if (near > 0.0) light = mix(light, enlarged(inverse(mat2(dx, dy)) * -base), near);
   float alpha = cover / (count * count) * drop.beside_phase.z;

@@ -16,8 +16,8 @@ void main() {
   float across = (corner & 2) == 0 ? -drop.beside_phase.x : drop.beside_phase.x;
   vec2 circle = drop.reach.xy * along + vec2(-drop.reach.y, drop.reach.x) * across;
   base = vec2(circle.x * drop.head_stretch.w, circle.y);
-  vec3 on_glass = drop.head_stretch.xyz * base.x + cross(drop.normal_pixel.xyz, drop.head_stretch.xyz) * base.y;
-  bool drawn = drop.beside_phase.z > 0.0;
+  vec3 on_glass = drop.head_stretch.xyz * base.x + cross(drop.normal_reflections.xyz, drop.head_stretch.xyz) * base.y;
+  bool drawn = drop.beside_phase.z > 0.0 && drop.light_small.w == 0.0;
   vec4 eye_position = frame.eye_from_vehicle * vec4(drop.position_radius.xyz + on_glass * drop.position_radius.w, 1.0);
   gl_Position = drawn ? frame.clip_from_eye * eye_position : vec4(0.0, 0.0, 2.0, 1.0);
 }

@@ -1,8 +1,8 @@
 // Where each drop lies on the glass and how large a rectangle shows it to this eye: once for each, not for each of its corners.
+#include "optics/drop_light.glsl"
 #include "optics/look_frame.glsl"
 #include "optics/seen_drop.glsl"
 #include "shared/glass_types.glsl"
-#include "shared/optics_drop.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Drops { GlassDropRecord drops[]; };
@@ -59,6 +59,25 @@ bool inSight(vec4 clip, float radius_m) {
   return clip.w > -radius_m && all(lessThan(abs(clip.xy), abs(clip.w) + 1.5 * margin));
 }
 
+const float kSmall_px = 1.6;  // radius; drops below are too small to show more than one colour
+const float kPlain_px = 5.0;  // radius; drops below show nothing of late reflections
+
+// A drop's light as a whole: that of four places about its middle, each standing for a quarter of it.
+vec3 meanLight(Cap cap, Place place, vec3 d, vec4 clip) {
+  world_from_drop = mat3(frame.world_from_vehicle) * mat3(place.head, cross(place.normal, place.head), place.normal);
+  eye_outside = d.z < 0.0;
+  cabin = decode(textureLod(picture, clamp(clip.xy / max(clip.w, 1e-3) * 0.5 + 0.5, 0.0, 1.0), 3.0).rgb);
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < 4; ++k) {
+    vec2 at = 0.47 * vec2(k % 2 == 0 ? -cap.stretch : cap.stretch, k < 2 ? -1.0 : 1.0);  // 2/3 from the middle, as the mean point is
+    sum += lightThrough(cap, at, d, 0.9 * sqrt(abs(d.z)), 2);
+  }
+  return encode(frame.brightness * 0.25 * sum);
+}
+
+// A disc that fades over a pixel covers 1/12 of a square pixel's circle too much: pi (R^2 + 1/12) by integration.
+float fadedDisc(float area_px) { return area_px / (area_px + 0.2618); }
+
 void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= uint(frame.drop_count)) return;
@@ -86,13 +105,25 @@ void main() {
   float pad = 0.2 * irregularity + pixel / steep;
   bool visible = inSight(frame.clip_from_eye * eye_position, 2.0 * radius_m * max(stretch, slope));
 
+  float radius_px = radius_m / pixel_m;
+  bool small = visible && radius_px < kSmall_px;
+  vec4 light_small = vec4(0.0);
+  if (small) {
+    light_small = vec4(meanLight(cap, place, view, frame.clip_from_eye * eye_position), eye_outside ? 2.0 : 1.0);
+    weight *= sqrt(fadedDisc(3.14159 * radius_px * radius_px * stretch * max(abs(view.z), 0.2)));
+    irregularity = 0.0;
+    pad = 0.0;
+  }
+
   SeenDrop o;
   o.position_radius = vec4(place.position_m, radius_m);
   o.head_stretch = vec4(place.head, stretch);
-  o.normal_pixel = vec4(place.normal, pixel);
-  o.cap_outline = vec4(cap.centre_z, cap.radius, irregularity, smoothstep(0.0, 0.1, length(drop.velocity_mps)) * step(1.05, stretch));
+  o.light_small = light_small;
+  o.normal_reflections = vec4(place.normal, min(float(frame.internal_reflections), radius_px < kPlain_px ? 3.0 : 6.0));
+  // A small drop's third number: how much wider than its ellipse the triangle is for the faded edge.
+  o.cap_outline = vec4(cap.centre_z, cap.radius, small ? 1.0 + 0.5 * pixel / steep : irregularity, smoothstep(0.0, 0.1, length(drop.velocity_mps)) * step(1.05, stretch));
   o.reach = vec4(shadow_length > 1e-4 ? shadow / shadow_length : vec2(1.0, 0.0), reach(cap, slope) + pad, reach(cap, -slope) + pad);
-  o.beside_phase = vec4((cap.centre_z > 0.0 ? cap.radius : 1.0) + 0.2 * irregularity + pixel, float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
+  o.beside_phase = vec4((cap.centre_z > 0.0 ? cap.radius : 1.0) + 0.2 * irregularity + (small ? 0.0 : pixel), float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
                         visible ? weight * weight : 0.0, radius_m < frame.fine_radius_px * pixel_m ? 2.0 : 1.0);
   seen[k] = o;
 }

@@ -18,8 +18,8 @@ namespace rg::glass {
 namespace {
 
 constexpr int kMeshStride = 8 * sizeof(float);
-constexpr size_t kSeenDropBytes = 96;  // shaders/optics/seen_drop.glsl
-constexpr int kPlaceGroup = 64;        // drops in a group of look_place.comp
+constexpr size_t kSeenDropBytes = 112;  // shaders/optics/seen_drop.glsl
+constexpr int kPlaceGroup = 64;         // drops in a group of look_place.comp
 constexpr float kFineRadius_px = 6.0f;
 
 const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
@@ -60,7 +60,9 @@ struct GlassLook::Parts {
         inside_program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
         outside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
                          gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kEnvironment)},
-        place_program(gl, {"glass/look_place.comp"}),
+        small_program(gl, {"glass/look_small.vert", "glass/look_small.frag"}),
+        place_programs{gl::Program(gl, {"glass/look_place.comp"}),
+                       gl::Program(gl, {"glass/look_place.comp"}, kEnvironment)},
         drop_programs{gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}),
                       gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}, kEnvironment)},
         frame_block(gl, sizeof(FrameBlock)),
@@ -97,8 +99,8 @@ struct GlassLook::Parts {
   const GladGLContext& gl;
   gl::Program film_program, inside_program;
   std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
-  gl::Program place_program;
-  std::array<gl::Program, 2> drop_programs;
+  gl::Program small_program;
+  std::array<gl::Program, 2> place_programs, drop_programs;
   gl::Buffer frame_block, seen_drops;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, stepped, mipped, exact;
@@ -227,7 +229,8 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.drop_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen_drops.name());
-  place_program.use();
+  gl.BindSampler(kPicture, mipped.name());
+  place_programs[with_environment].use();
   gl.DispatchCompute(static_cast<GLuint>(pane.drop_count + kPlaceGroup - 1) / kPlaceGroup, 1, 1);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -236,14 +239,17 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.Enablei(GL_BLEND, 0);
   gl.BindSampler(kPicture, mipped.name());
   gl.BindVertexArray(no_layout.name());
+  small_program.use();
+  gl.DrawArrays(GL_TRIANGLES, 0, 3 * pane.drop_count);
   drop_programs[with_environment].use();
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &inside_program, &place_program}) program->forget();
+  for (gl::Program* program : {&film_program, &inside_program, &small_program}) program->forget();
   for (size_t k : {0u, 1u}) {
     outside_programs[k].forget();
+    place_programs[k].forget();
     drop_programs[k].forget();
   }
   frame_block.forget();
