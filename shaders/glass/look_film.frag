@@ -7,24 +7,24 @@ layout(binding = 4) uniform sampler2D pane_metric;
 
 layout(location = 0) out vec4 slope_thickness;  // xyz: gradient of the thickness along the glass, vehicle frame; w: thickness, um
 
-// Thickness in um; past the pane's edge as at `inner_um`.
-float thickness_um(ivec2 texel, float inner_um) {
-  ivec2 last = textureSize(film, 0) - 1;
-  texel = clamp(texel, ivec2(0), last);
-  int volume = texelFetch(film, texel, 0).r;
-  return volume < 0 ? inner_um : float(volume) * frame.film_unit_m3 * 1e6 / max(texelFetch(pane_metric, texel, 0).w, 1e-12);
+// Thickness in um by that of a unit of volume; past the pane's edge as at `inner_um`.
+float thickness_um(ivec2 texel, float inner_um, float unit_um) {
+  int volume = texelFetch(film, clamp(texel, ivec2(0), textureSize(film, 0) - 1), 0).r;
+  return volume < 0 ? inner_um : float(volume) * unit_um;
 }
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   vec4 metric = texelFetch(pane_metric, texel, 0);
-  float middle = thickness_um(texel, 0.0);
+  // Neighbours are as large as the texel itself to a thousandth: a pane bends little over a few millimetres.
+  float unit_um = frame.film_unit_m3 * 1e6 / max(metric.w, 1e-12);
+  float middle = thickness_um(texel, 0.0, unit_um);
   // Values and slopes of the uniform cubic B-spline at its knots: weights 1 4 1 across, 1 0 -1 along (de Boor, A Practical Guide to Splines, IX).
   float sum = 0.0;
   vec2 rise = vec2(0.0);
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      float h = thickness_um(texel + ivec2(x, y), middle);
+      float h = thickness_um(texel + ivec2(x, y), middle, unit_um);
       vec2 weight = vec2(x == 0 ? 4.0 : 1.0, y == 0 ? 4.0 : 1.0) / 6.0;
       sum += h * weight.x * weight.y;
       rise += h * 0.5 * vec2(float(x) * weight.y, float(y) * weight.x);

@@ -45,9 +45,14 @@ vec3 throughDroplets(vec2 at) {
 }
 
 void main() {
+#ifdef COARSE  // many pixels to a texel
   vec4 water = textureBicubic(film, i.uv);
+#else
+  vec4 water = textureLod(film, i.uv, 0.0);
+#endif
   vec3 normal = normalize(i.normal);
-  vec3 view = normalize(i.from_eye);
+  float to_glass_m = length(i.from_eye);
+  vec3 view = i.from_eye / to_glass_m;
   bool wet = water.w > kDry_um;
   float steep = length(water.xyz);
   float sure = smoothstep(kDry_um, 4.0 * kDry_um, water.w);
@@ -64,12 +69,11 @@ void main() {
   if (dot(transmitted, transmitted) < 0.5) transmitted = view;
   float flat_reflectance = fresnel(max(dot(within, normal), 0.0), 1.0 / kWaterIndex);
   float more = max(fresnel(max(dot(within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
-  float to_glass_m = length(i.from_eye);
   float behind_m = behindGlass_m(to_glass_m);
   beads *= 1.0 - nearness(behind_m, dot(view, normal));
   // A view bent at the glass misses what stands close behind it by less than what is far.
   float lever = behind_m / (behind_m + to_glass_m);
-  vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
+  vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - at);
   vec3 blurred = throughDroplets(at + shift);
   vec3 light = mix(behind(at, shift), blurred, beads);
   // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
@@ -81,7 +85,7 @@ void main() {
   if (dot(transmitted, transmitted) < 0.5) transmitted = view;
   float first = fresnel(max(-dot(view, surface), 0.02), wet ? kWaterIndex : kWindowIndex);
   float reflectance = first + (1.0 - first) * (1.0 - first) * fresnel(max(-dot(view, normal), 0.02), kWindowIndex);
-  float lever = kBehindGlass_m / (kBehindGlass_m + length(i.from_eye));
+  float lever = kBehindGlass_m / (kBehindGlass_m + to_glass_m);
   vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
   vec3 light = frame.brightness * mix(behind(at, shift), throughDroplets(at + shift), beads);
   vec3 reflected = mat3(frame.world_from_vehicle) * reflect(view, surface);

@@ -18,11 +18,13 @@ namespace rg::glass {
 namespace {
 
 constexpr int kMeshStride = 8 * sizeof(float);
-constexpr size_t kSeenDropBytes = 112;  // shaders/optics/seen_drop.glsl
-constexpr int kPlaceGroup = 64;         // drops in a group of look_place.comp
-constexpr float kFineRadius_px = 6.0f;
+constexpr size_t kSeenDropBytes = 112;   // shaders/optics/seen_drop.glsl
+constexpr int kPlaceGroup = 64;          // drops in a group of look_place.comp
+constexpr float kCoarseTexel_px = 6.0f;  // a film of larger texels would show facets
+constexpr float kFineRadius_px = 3.0f;
 
 const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
+const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"};
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -57,7 +59,8 @@ struct GlassLook::Parts {
   explicit Parts(const GladGLContext& context)
       : gl(context),
         film_program(gl, {"glass/look_screen.vert", "glass/look_film.frag"}),
-        inside_program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
+        inside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
+                        gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideCoarse)},
         outside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
                          gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kEnvironment)},
         small_program(gl, {"glass/look_small.vert", "glass/look_small.frag"}),
@@ -97,7 +100,8 @@ struct GlassLook::Parts {
   }
 
   const GladGLContext& gl;
-  gl::Program film_program, inside_program;
+  gl::Program film_program;
+  std::array<gl::Program, 2> inside_programs;   // for a film of few and of many pixels to a texel
   std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
   gl::Program small_program;
   std::array<gl::Program, 2> place_programs, drop_programs;
@@ -107,7 +111,7 @@ struct GlassLook::Parts {
   gl::TextureCube no_environment;  // black
   gl::Texture2D no_film;           // a dry texel
   Canvases films;                  // of look_film.frag
-  size_t with_environment = 0;
+  size_t with_environment = 0, coarse = 0;
   uint32_t film_seen = 0;  // for the pane being drawn
   LookPicture picture;
   LookCapture capture;
@@ -134,6 +138,8 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.exposure = target.exposure;
   block.pixels_per_rad =
       static_cast<float>(std::abs(view.clipFromEye[1][1])) * 0.5f * static_cast<float>(view.viewport_px.w);
+  const float distance_m = glm::distance(glm::vec3(block.eye_in_vehicle), pane.centre_m);
+  coarse = pane.texel_m * block.pixels_per_rad > kCoarseTexel_px * distance_m ? 1 : 0;
   block.environment_texels_per_rad = environment != 0 ? texelsPerRadian(gl, environment) : 0.0f;
   block.cabin_share = light.cabin_share;
   block.brightness = settings.brightness;
@@ -211,7 +217,7 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   // outside.
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
-  inside_program.use();
+  inside_programs[coarse].use();
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   gl.CullFace(GL_BACK);
   outside_programs[with_environment].use();
@@ -246,8 +252,9 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &inside_program, &small_program}) program->forget();
+  for (gl::Program* program : {&film_program, &small_program}) program->forget();
   for (size_t k : {0u, 1u}) {
+    inside_programs[k].forget();
     outside_programs[k].forget();
     place_programs[k].forget();
     drop_programs[k].forget();
