@@ -13,9 +13,12 @@ constexpr double kTable = 0.01;  // the table has three to four digits
 struct Row {
   double rate, n0, drops, drops_gt1, flux, flux_gt1, mean_air, mean_ground, water;
 };
-constexpr Row kRows[] = {{1, 7187, 226, 29, 676, 137, 0.74, 0.81, 0.068},      {5, 6906, 547, 127, 1816, 629, 0.84, 0.95, 0.279},
-                         {10, 6949, 777, 219, 2705, 1115, 0.90, 1.03, 0.513},  {25, 7139, 1207, 425, 4494, 2237, 0.98, 1.15, 1.158},
-                         {50, 7402, 1666, 676, 6540, 3658, 1.05, 1.26, 2.158}, {100, 7813, 2299, 1054, 9515, 5868, 1.14, 1.38, 4.054}};
+constexpr Row kRows[] = {{1, 7187, 226, 29, 676, 137, 0.74, 0.81, 0.068},
+                         {5, 6906, 547, 127, 1816, 629, 0.84, 0.95, 0.279},
+                         {10, 6949, 777, 219, 2705, 1115, 0.90, 1.03, 0.513},
+                         {25, 7139, 1207, 425, 4494, 2237, 0.98, 1.15, 1.158},
+                         {50, 7402, 1666, 676, 6540, 3658, 1.05, 1.26, 2.158},
+                         {100, 7813, 2299, 1054, 9515, 5868, 1.14, 1.38, 4.054}};
 
 TEST(SizeLaw, followsTheNormativeTable) {
   for (const Row& row : kRows) {
@@ -26,7 +29,8 @@ TEST(SizeLaw, followsTheNormativeTable) {
     EXPECT_NEAR(law.flux(0.5, 6), row.flux, kTable * row.flux) << row.rate;
     EXPECT_NEAR(law.flux(1, 6), row.flux_gt1, kTable * row.flux_gt1) << row.rate;
     EXPECT_NEAR(law.meanDiameter_mm(), row.mean_air, 0.005 + kTable * row.mean_air) << row.rate;
-    EXPECT_NEAR(law.meanDiameterReachingGround_mm(), row.mean_ground, 0.005 + kTable * row.mean_ground) << row.rate;
+    EXPECT_NEAR(law.meanDiameterReachingGround_mm(), row.mean_ground, 0.005 + kTable * row.mean_ground)
+        << row.rate;
     EXPECT_NEAR(law.water_g_m3(), row.water, 0.0005 + kTable * row.water) << row.rate;
     EXPECT_NEAR(law.delivered_mm_h(), row.rate, 1e-9 * row.rate);
   }

@@ -1,4 +1,5 @@
-// Streaks as drawn: energy, depth, the target's alpha, and clean GL. RG_RAIN_PICTURES=DIR writes pictures to look at.
+// Streaks as drawn: energy, depth, the target's alpha, and clean GL. RG_RAIN_PICTURES=DIR writes pictures to
+// look at.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -13,8 +14,9 @@
 namespace rg::rain::test {
 namespace {
 
-constexpr uint32_t kTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_TOUCHED_BUFFERS | RG_TOUCHED_TEXTURES |
-                              RG_TOUCHED_FRAMEBUFFER | RG_TOUCHED_VIEWPORT | RG_TOUCHED_BLEND | RG_TOUCHED_DEPTH | RG_TOUCHED_RASTER;
+constexpr uint32_t kTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_TOUCHED_BUFFERS |
+                              RG_TOUCHED_TEXTURES | RG_TOUCHED_FRAMEBUFFER | RG_TOUCHED_VIEWPORT |
+                              RG_TOUCHED_BLEND | RG_TOUCHED_DEPTH | RG_TOUCHED_RASTER;
 
 // A plain grey sky over darker ground, with rain before it.
 class StreakPicture : public rg::test::GlTest {
@@ -22,7 +24,8 @@ class StreakPicture : public rg::test::GlTest {
   void SetUp() override { loaded = gl::loadContext(rg::test::GlContext::getProc, nullptr); }
 
   // Ticks a fresh field for two seconds and draws it.
-  rg::test::Picture draw(double rain_mm_h, double speed_mps, int width, int height, float gain, float depth = 1.0f, bool soft = true) {
+  rg::test::Picture draw(double rain_mm_h, double speed_mps, int width, int height, float gain,
+                         float depth = 1.0f, bool soft = true) {
     Field field({.capacity = 200000, .seed = 5});
     Scene scene = sceneWithView(rain_mm_h);
     for (; scene.index < 240; ++scene.index) {
@@ -35,14 +38,16 @@ class StreakPicture : public rg::test::GlTest {
     field.publish(upload);
     RainRenderer renderer(*loaded, 200000);
     renderer.upload(upload);
-    const gl::Texture2D colour(loaded->gl, GL_RGBA32F, width, height), deep(loaded->gl, GL_DEPTH_COMPONENT32F, width, height);
+    const gl::Texture2D colour(loaded->gl, GL_RGBA32F, width, height),
+        deep(loaded->gl, GL_DEPTH_COMPONENT32F, width, height);
     const gl::Framebuffer target(loaded->gl, {&colour}, &deep);
     paint(target.name(), width, height, depth);
     RainDraw request;
     request.view = &scene.views[0];
     request.viewport_px = {0, 0, width, height};
     request.time_ns = tickTimeNs(scene.index - 1);
-    request.target = {target.name(), soft ? colour.name() : 0, soft ? deep.name() : 0, width, height, false, 1.0f};
+    request.target = {target.name(), soft ? colour.name() : 0, soft ? deep.name() : 0, width, height, false,
+                      1.0f};
     request.lighting.sky_radiance = glm::vec3(0.8f);
     request.lighting.ground_radiance = glm::vec3(0.25f);
     if (gain > 0.0f) request.gain = gain;
@@ -78,7 +83,8 @@ class StreakPicture : public rg::test::GlTest {
 };
 
 TEST_F(StreakPicture, addsTheSameBrightnessAtEveryResolution) {
-  const double small = addedOverGround(draw(25, 0, 320, 180, 1)), large = addedOverGround(draw(25, 0, 1280, 720, 1));
+  const double small = addedOverGround(draw(25, 0, 320, 180, 1)),
+               large = addedOverGround(draw(25, 0, 1280, 720, 1));
   EXPECT_GT(large, 1e-4);
   EXPECT_NEAR(small, large, 0.05 * large);
 }
@@ -102,7 +108,9 @@ TEST_F(StreakPicture, canBeLookedAt) {
     for (const int kmh : {0, 100}) {
       auto picture = draw(rate, kmh * kKmh, 1280, 720, 0);
       for (glm::vec4& p : picture.pixels) p = glm::vec4(glm::pow(glm::vec3(p), glm::vec3(1 / 2.2f)), 1.0f);
-      ASSERT_TRUE(writePpm(std::string(folder) + "/rain_" + std::to_string(rate) + "_" + std::to_string(kmh) + ".ppm", picture));
+      ASSERT_TRUE(
+          writePpm(std::string(folder) + "/rain_" + std::to_string(rate) + "_" + std::to_string(kmh) + ".ppm",
+                   picture));
     }
   }
 }

@@ -24,7 +24,8 @@ std::string refusal(const std::vector<dvec3>& vertices, const std::vector<Plane>
 
 TEST(Volume, hullOfABoxHasSixFacesHoweverManyPointsItIsGivenBy) {
   auto points = boxCorners({-1, -2, 0}, {1, 2, 3});
-  for (int i = 0; i < 40; ++i) points.emplace_back(0.9 * std::sin(i), 1.9 * std::cos(3 * i), 1.5 + 1.4 * std::sin(7 * i));
+  for (int i = 0; i < 40; ++i)
+    points.emplace_back(0.9 * std::sin(i), 1.9 * std::cos(3 * i), 1.5 + 1.4 * std::sin(7 * i));
   VolumeInfo info;
   info.vertices = points;
   Convex hull;

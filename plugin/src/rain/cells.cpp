@@ -14,7 +14,8 @@ Cells::Cells() {
 }
 
 uint32_t Cells::hashOf(const CellKey& key) {
-  const auto mixed = shared::pcg3d({static_cast<uint32_t>(key.x), static_cast<uint32_t>(key.y), static_cast<uint32_t>(key.z) * 37u + key.kind});
+  const auto mixed = shared::pcg3d({static_cast<uint32_t>(key.x), static_cast<uint32_t>(key.y),
+                                    static_cast<uint32_t>(key.z) * 37u + key.kind});
   return mixed.x ^ mixed.z;
 }
 
@@ -61,7 +62,8 @@ uint32_t Cells::release(const CellKey& key) {
 void Cells::free(uint32_t index) {
   const uint32_t mask = static_cast<uint32_t>(table_.size()) - 1u;
   uint32_t hole = find(pool_[index].key);
-  // Later entries of the same run move up, so that no search ends early (Knuth, The Art of Computer Programming 3, 6.4 algorithm R).
+  // Later entries of the same run move up, so that no search ends early (Knuth, The Art of Computer
+  // Programming 3, 6.4 algorithm R).
   for (uint32_t next = (hole + 1u) & mask; table_[next] != kNone; next = (next + 1u) & mask) {
     const uint32_t home = hashOf(pool_[table_[next]].key) & mask;
     if (((next - home) & mask) < ((next - hole) & mask)) continue;

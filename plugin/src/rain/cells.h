@@ -21,13 +21,15 @@ struct Cell {
   bool near_volume = false;  // some drop of it was tested against a volume
 };
 
-// A pool of cells with a hash table on it. Indices stay valid while the cell lives. Grows when more cells are looked into than ever before.
+// A pool of cells with a hash table on it. Indices stay valid while the cell lives. Grows when more cells are
+// looked into than ever before.
 class Cells {
  public:
   Cells();
   // Counts one more view for the cell and returns its index; `fresh` tells that it was not there.
   uint32_t acquire(const CellKey& key, bool& fresh);
-  // Counts one view less and returns the index of the cell when that was the last (then free() it), else kNone.
+  // Counts one view less and returns the index of the cell when that was the last (then free() it), else
+  // kNone.
   uint32_t release(const CellKey& key);
   void free(uint32_t index);
   void clear();
@@ -39,7 +41,8 @@ class Cells {
 
  private:
   static uint32_t hashOf(const CellKey& key);
-  uint32_t find(const CellKey& key) const;  // place in the table: of the key, or the empty one where it would be
+  uint32_t find(
+      const CellKey& key) const;  // place in the table: of the key, or the empty one where it would be
   void grow();
 
   std::vector<Cell> pool_;

@@ -56,8 +56,14 @@ void SlotPool::give(uint32_t slot) {
 }
 
 Drops::Drops(uint32_t capacity)
-    : slots_(capacity), records_(capacity), in_cell_(capacity), on_day_(capacity), cell_(capacity, kNone), bucket_(capacity, kNone),
-      heads_(kBuckets, kNone), is_changed_(capacity, false) {
+    : slots_(capacity),
+      records_(capacity),
+      in_cell_(capacity),
+      on_day_(capacity),
+      cell_(capacity, kNone),
+      bucket_(capacity, kNone),
+      heads_(kBuckets, kNone),
+      is_changed_(capacity, false) {
   changed_.reserve(capacity);
 }
 
@@ -69,8 +75,10 @@ void Drops::link(std::vector<Link>& links, uint32_t& head, uint32_t slot) {
 
 void Drops::unlink(std::vector<Link>& links, uint32_t& head, uint32_t slot) {
   const Link link = links[slot];
-  if (link.before != kNone) links[link.before].next = link.next;
-  else head = link.next;
+  if (link.before != kNone)
+    links[link.before].next = link.next;
+  else
+    head = link.next;
   if (link.next != kNone) links[link.next].before = link.before;
 }
 
@@ -86,7 +94,8 @@ void Drops::clearChanged() {
 }
 
 void Drops::schedule(uint32_t slot, uint32_t now) {
-  // Ends fall within a tick: the bucket is of the first tick at or after the end, so that by then it has come.
+  // Ends fall within a tick: the bucket is of the first tick at or after the end, so that by then it has
+  // come.
   const uint32_t ahead = std::clamp((records_[slot].end - now + kTick - 1) / kTick, 1u, kBuckets - 1);
   const uint32_t day = (now / kTick + ahead) % kBuckets;
   bucket_[slot] = day;
@@ -99,7 +108,8 @@ void Drops::unschedule(uint32_t slot) {
   bucket_[slot] = kNone;
 }
 
-uint32_t Drops::add(const shared::RainDrop& drop, uint32_t cell, uint32_t& first_of_cell, bool ends, uint32_t now) {
+uint32_t Drops::add(const shared::RainDrop& drop, uint32_t cell, uint32_t& first_of_cell, bool ends,
+                    uint32_t now) {
   const uint32_t slot = slots_.take();
   if (slot == kNone) return kNone;
   records_[slot] = drop;

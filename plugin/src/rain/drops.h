@@ -9,7 +9,8 @@
 
 namespace rg::rain {
 
-// Free slots of a fixed buffer. The lowest goes first, so that the live ones stay together and drawing need not look far.
+// Free slots of a fixed buffer. The lowest goes first, so that the live ones stay together and drawing need
+// not look far.
 class SlotPool {
  public:
   explicit SlotPool(uint32_t capacity);
@@ -21,7 +22,8 @@ class SlotPool {
   bool taken(uint32_t slot) const;
 
  private:
-  static constexpr int kLevels = 4;  // a bit for each slot; above, a bit for each word that has a free one: 64^4 slots
+  static constexpr int kLevels =
+      4;  // a bit for each slot; above, a bit for each word that has a free one: 64^4 slots
   std::vector<uint64_t> free_[kLevels];
   uint32_t capacity_, used_ = 0, end_ = 0;
 };

@@ -15,15 +15,17 @@ namespace {
 
 using glm::dvec3;
 
-constexpr uint32_t kEndUnits = 1024;               // as shared::kRainEndUnits
-constexpr uint32_t kEndless = 1u << 30;            // ticks' units ahead: 2.4 h, longer than any drop stays in view
-constexpr double kLongestEnd_s = 8000.0;           // ends beyond are none
-constexpr int64_t kLongestGap = 2048;              // ticks left out at once; more is a seek
-constexpr double kLongestStreak_m = 5.0;           // beyond the reach a volume may still be met by a streak
-constexpr double kCeilingAboveEye_m = 10.0;        // rain that sets in is first seen there
-constexpr double kLeastTurn_radps = 1.0472;        // 60 deg/s: a turn of the view that needs no warning
-constexpr double kFilled = 0.93;                   // of the buffer that the expected number may take: 7 % for chance and the cells' edges
-constexpr double kThinningStep = 0.02;             // thinning changes in steps, so that it is not felt at every tick
+constexpr uint32_t kEndUnits = 1024;         // as shared::kRainEndUnits
+constexpr uint32_t kEndless = 1u << 30;      // ticks' units ahead: 2.4 h, longer than any drop stays in view
+constexpr double kLongestEnd_s = 8000.0;     // ends beyond are none
+constexpr int64_t kLongestGap = 2048;        // ticks left out at once; more is a seek
+constexpr double kLongestStreak_m = 5.0;     // beyond the reach a volume may still be met by a streak
+constexpr double kCeilingAboveEye_m = 10.0;  // rain that sets in is first seen there
+constexpr double kLeastTurn_radps = 1.0472;  // 60 deg/s: a turn of the view that needs no warning
+constexpr double kFilled =
+    0.93;  // of the buffer that the expected number may take: 7 % for chance and the cells' edges
+constexpr double kStrongestWind_mps = 100.0;  // along an axis, as the ABI's
+constexpr double kThinningStep = 0.02;  // thinning changes in steps, so that it is not felt at every tick
 
 uint64_t mixed(uint64_t a, uint64_t b) {
   uint64_t z = (a + 0x9e3779b97f4a7c15u) ^ (b * 0xd6e8feb86659fd93u);
@@ -33,6 +35,13 @@ uint64_t mixed(uint64_t a, uint64_t b) {
 }
 
 bool usable(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// What carries the lattice must stay a number: one NaN would stop the rain for good.
+dvec3 windOf(const Tick& t) {
+  return usable(t.weather.wind_mps)
+             ? glm::clamp(t.weather.wind_mps, dvec3(-kStrongestWind_mps), dvec3(kStrongestWind_mps))
+             : dvec3(0.0);
+}
 
 }  // namespace
 
@@ -49,7 +58,9 @@ struct FollowedView {
 
 struct Field::State {
   explicit State(const FieldSettings& given)
-      : settings(given), drops(std::clamp(given.capacity, 1000u, 4000000u)), threshold(drops.capacity(), 0.0f) {
+      : settings(given),
+        drops(std::clamp(given.capacity, 1000u, 4000000u)),
+        threshold(drops.capacity(), 0.0f) {
     fresh.reserve(1u << 16);
     left.reserve(1u << 16);
   }
@@ -64,22 +75,24 @@ struct Field::State {
   RateHistory rate;
   std::vector<std::unique_ptr<FollowedView>> views;
 
-  bool started = false;   // the lattice has its origin
-  bool running = false;   // since the last seek a tick has been
+  bool started = false;  // the lattice has its origin
+  bool running = false;  // since the last seek a tick has been
   int64_t epoch = 0, tick = 0;
-  dvec3 origin_m{0.0};    // of the lattice, without wind and fall
+  dvec3 origin_m{0.0};  // of the lattice, without wind and fall
   double ceiling_m = 0.0;
-  double keep = 1.0;      // share of the law's drops that is born
+  double keep = 1.0;  // share of the law's drops that is born
   std::array<uint32_t, kClasses> cells_of{};
-  std::vector<uint32_t> fresh;   // cells that came into view in this tick
-  std::vector<CellKey> left;     // cells that a view left in this tick
+  std::vector<uint32_t> fresh;  // cells that came into view in this tick
+  std::vector<CellKey> left;    // cells that a view left in this tick
   ClassPath path;
   uint64_t born = 0, died = 0, sheltered = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
   uint32_t now() const { return static_cast<uint32_t>(static_cast<uint64_t>(tick - epoch) * kEndUnits); }
   double reachPerDiameter() const { return visibility.factor * visibility.reference_px; }
-  dvec3 classVelocity(uint32_t kind) const { return wind.wind_mps() - dvec3(0, 0, classLattices()[kind].drops.speed_mps); }
+  dvec3 classVelocity(uint32_t kind) const {
+    return wind.wind_mps() - dvec3(0, 0, classLattices()[kind].drops.speed_mps);
+  }
   // World position of the corner of cell (0, 0, 0).
   dvec3 classOrigin(uint32_t kind) const {
     return origin_m + wind.carried_m() - dvec3(0, 0, classLattices()[kind].drops.speed_mps * time_s());
@@ -109,19 +122,22 @@ struct Field::State {
   void describe(Picture& picture) const;
 };
 
-// ---- a tick ------------------------------------------------------------------------------------------------------------------
+// ---- a tick
+// ------------------------------------------------------------------------------------------------------------------
 
 void Field::State::start(const Tick& t) {
   if (!started) {
     epoch = t.index;
-    origin_m = !t.vehicles.empty() ? t.vehicles[0].pose.position_m : !t.views.empty() ? coneOf(t.views[0]).eye_m : dvec3(0.0);
+    origin_m = !t.vehicles.empty() ? t.vehicles[0].pose.position_m
+               : !t.views.empty()  ? coneOf(t.views[0]).eye_m
+                                   : dvec3(0.0);
     if (!usable(origin_m)) origin_m = dvec3(0.0);
     started = true;
     tick = t.index;
-    wind.start(0.0, dvec3(0.0), t.weather.wind_mps);
+    wind.start(0.0, dvec3(0.0), windOf(t));
   } else {
     tick = t.index;
-    wind.start(time_s(), wind.carried_m(), t.weather.wind_mps);
+    wind.start(time_s(), wind.carried_m(), windOf(t));
   }
   rate.fill(t.weather.rain_mm_h);
   shelter.restart();
@@ -151,7 +167,7 @@ void Field::tick(const Tick& t) {
     s.start(t);
   } else {
     s.moveTo(t);
-    gust = s.wind.advance(s.time_s(), t.weather.wind_mps);
+    gust = s.wind.advance(s.time_s(), windOf(t));
   }
   changes = s.shelter.advance(s.time_s(), t.vehicles);
   s.followViews(t);
@@ -163,7 +179,8 @@ void Field::tick(const Tick& t) {
   s.fresh.clear();
 }
 
-// ---- views and cells -----------------------------------------------------------------------------------------------------------
+// ---- views and cells
+// -----------------------------------------------------------------------------------------------------------
 
 void Field::State::followViews(const Tick& t) {
   for (auto& view : views) view->told = false;
@@ -180,7 +197,8 @@ void Field::State::followViews(const Tick& t) {
   }
   for (auto& view : views) {
     if (view->told) continue;
-    for (uint32_t kind = 0; kind < kClasses; ++kind) replaceRows(view->rows[view->current][kind], RowSet{}, kind);
+    for (uint32_t kind = 0; kind < kClasses; ++kind)
+      replaceRows(view->rows[view->current][kind], RowSet{}, kind);
   }
   std::erase_if(views, [](const auto& view) { return !view->told; });
 }
@@ -188,7 +206,7 @@ void Field::State::followViews(const Tick& t) {
 void Field::State::followView(FollowedView& view, const ViewState& told) {
   const Cone cone = coneOf(told);
   const glm::dquat worldFromEye = glm::quat_cast(glm::transpose(glm::dmat3(told.eyeFromWorld)));
-  dvec3 velocity = told.eye_velocity_mps;
+  const dvec3 velocity = eyeVelocityOf(told);
   double turn = 0.0, surprise_m = 0.0;
   if (view.moved && !told.discontinuity && cone.valid) {
     const dvec3 really = (cone.eye_m - view.eye_m) / kTickSeconds;
@@ -207,11 +225,12 @@ void Field::State::followView(FollowedView& view, const ViewState& told) {
     const dvec3 past = classVelocity(kind) - velocity;
     Margin margin;
     // A tick ahead with a quarter to spare, and half a streak.
-    margin.sweep_m = past * (1.25 * kTickSeconds + 0.5 * std::clamp(told.exposure_s, 0.0, 0.25));
+    margin.sweep_m = past * (1.25 * kTickSeconds + 0.5 * exposureOf(told));
     const double reach = reachPerDiameter() * 1e-3 * lattice.drops.to_mm;
     margin.sides_m = 0.02 + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
     margin.reach_m = reach + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
-    findRows(cone, margin, (cone.eye_m - classOrigin(kind)) / lattice.cell_m, lattice.cell_m, view.rows[after][kind]);
+    findRows(cone, margin, (cone.eye_m - classOrigin(kind)) / lattice.cell_m, lattice.cell_m,
+             view.rows[after][kind]);
     replaceRows(view.rows[before][kind], view.rows[after][kind], kind);
     view.rows[before][kind].clear();
   }
@@ -292,7 +311,8 @@ void Field::State::thin() {
   }
   const double room = kFilled * drops.capacity();
   const double wanted = expected > room ? room / expected : 1.0;
-  if (wanted == keep || (std::abs(wanted - keep) < kThinningStep * keep && wanted < 1.0 && wanted > keep)) return;
+  if (wanted == keep || (std::abs(wanted - keep) < kThinningStep * keep && wanted < 1.0 && wanted > keep))
+    return;
   if (wanted > keep) {
     keep = wanted;
     return;
@@ -307,10 +327,11 @@ void Field::State::thin() {
   }
 }
 
-// ---- births and shelter --------------------------------------------------------------------------------------------------------
+// ---- births and shelter
+// --------------------------------------------------------------------------------------------------------
 
-// The path of a class's drops: to come at today's wind, and back along the winds that were. What lies further back than the last pieces is
-// taken as one straight way.
+// The path of a class's drops: to come at today's wind, and back along the winds that were. What lies further
+// back than the last pieces is taken as one straight way.
 void Field::State::findPath(uint32_t kind) {
   const double t = time_s(), fall = classLattices()[kind].drops.speed_mps;
   const dvec3 velocity = classVelocity(kind);
@@ -343,7 +364,8 @@ dvec3 Field::State::cellMiddle(const CellKey& key) const {
 bool Field::State::lookAround(const CellKey& key, bool past) {
   if (shelter.empty()) return false;
   findPath(key.kind);
-  return shelter.lookAround(cellMiddle(key), dvec3(0.5 * classLattices()[key.kind].cell_m), path, time_s(), past);
+  return shelter.lookAround(cellMiddle(key), dvec3(0.5 * classLattices()[key.kind].cell_m), path, time_s(),
+                            past);
 }
 
 void Field::State::fillCell(uint32_t index) {
@@ -359,7 +381,9 @@ void Field::State::fillCell(uint32_t index) {
   for (; candidate->threshold_m3 < most; candidate = &candidates.next()) {
     // What rain there is where the drop is was decided when it fell through the ceiling.
     const double z = corner_z + candidate->fraction_z * 0x1p-16 * lattice.cell_m;
-    const double delay = rate.steady() ? 0.0 : std::max(0.0, ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz);
+    const double delay =
+        rate.steady() ? 0.0
+                      : std::max(0.0, ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz);
     const RateHistory::Entry& then = rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
     if (candidate->threshold_m3 >= keep * then.density_m3[key.kind]) continue;
     if (!birth(index, *candidate, then, near_volume)) return;
@@ -367,7 +391,8 @@ void Field::State::fillCell(uint32_t index) {
 }
 
 // False when the buffer is full.
-bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateHistory::Entry& then, bool near_volume) {
+bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateHistory::Entry& then,
+                         bool near_volume) {
   const CellKey key = cells[index].key;
   const ClassLattice& lattice = classLattices()[key.kind];
   RainDrop drop{};
@@ -377,7 +402,8 @@ bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateH
   drop.fraction_xy = candidate.fraction_x | candidate.fraction_y << 16;
   drop.fraction_z_class = candidate.fraction_z | key.kind << 16;
   // To a tenth of a micrometre, so that the last digit of a machine's log does not show.
-  drop.diameter_m = static_cast<float>(std::round(then.law.quantile(lattice.drops.from_mm, lattice.drops.to_mm, candidate.size) * 1e4) * 1e-7);
+  drop.diameter_m = static_cast<float>(
+      std::round(then.law.quantile(lattice.drops.from_mm, lattice.drops.to_mm, candidate.size) * 1e4) * 1e-7);
   drop.id = candidate.id;
   drop.end = now() + kEndless;
   bool ends = false;
@@ -400,7 +426,8 @@ bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateH
 dvec3 Field::State::placeOf(const RainDrop& drop) const {
   const uint32_t kind = shared::rainClassOf(drop);
   const dvec3 fraction(drop.fraction_xy & 0xffffu, drop.fraction_xy >> 16, drop.fraction_z_class & 0xffffu);
-  return classOrigin(kind) + (dvec3(drop.cell_x, drop.cell_y, drop.cell_z) + (fraction + 0.5) * 0x1p-16) * classLattices()[kind].cell_m;
+  return classOrigin(kind) + (dvec3(drop.cell_x, drop.cell_y, drop.cell_z) + (fraction + 0.5) * 0x1p-16) *
+                                 classLattices()[kind].cell_m;
 }
 
 // Rounded down, so that the drop does not outlive its entry.
@@ -410,8 +437,9 @@ bool Field::State::endOf(double after_s, uint32_t& end) const {
   return ends;
 }
 
-// What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked again where they end. Where they came
-// from has not changed: drops that never were stay so. `all`: cells that were not near a volume may be so now.
+// What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked
+// again where they end. Where they came from has not changed: drops that never were stay so. `all`: cells
+// that were not near a volume may be so now.
 void Field::State::retest(bool all) {
   for (uint32_t index = 0; index < cells.poolSize(); ++index) {
     const Cell& cell = cells[index];
@@ -440,7 +468,8 @@ void Field::State::retestCell(uint32_t index) {
   }
 }
 
-// ---- the rest of the interface ---------------------------------------------------------------------------------------------------
+// ---- the rest of the interface
+// ---------------------------------------------------------------------------------------------------
 
 Field::Field(const FieldSettings& settings) : state_(std::make_unique<State>(settings)) {}
 Field::~Field() = default;
@@ -455,7 +484,8 @@ void Field::removeVehicle(uint32_t vehicle) { state_->shelter.removeVehicle(vehi
 void Field::setVisibility(const Visibility& visibility) {
   Visibility& ours = state_->visibility;
   if (std::isfinite(visibility.factor)) ours.factor = std::clamp(visibility.factor, 0.25, 4.0);
-  if (std::isfinite(visibility.reference_px)) ours.reference_px = std::clamp(visibility.reference_px, 100.0, 10000.0);
+  if (std::isfinite(visibility.reference_px))
+    ours.reference_px = std::clamp(visibility.reference_px, 100.0, 10000.0);
 }
 
 void Field::reset() {
@@ -485,8 +515,9 @@ void Field::rebase(const dvec3& shift_m) {
 
 FieldStats Field::stats() const {
   const State& s = *state_;
-  return {s.started ? s.rate.now().law.rate_mm_h : 0.0, s.keep, s.drops.live(), s.born, s.died, s.sheltered,
-          s.shelter.tests() - s.tests_before, s.uploaded};
+  return {
+      s.started ? s.rate.now().law.rate_mm_h : 0.0, s.keep,    s.drops.live(), s.born, s.died, s.sheltered,
+      s.shelter.tests() - s.tests_before,           s.uploaded};
 }
 
 uint64_t Field::hash() const {
@@ -495,9 +526,11 @@ uint64_t Field::hash() const {
   for (uint32_t slot = 0; slot < s.drops.end(); ++slot) {
     if (!s.drops.alive(slot)) continue;
     const RainDrop& d = s.drops[slot];
-    uint64_t h = mixed(static_cast<uint32_t>(d.cell_x), uint64_t{static_cast<uint32_t>(d.cell_y)} << 32 | static_cast<uint32_t>(d.cell_z));
+    uint64_t h = mixed(static_cast<uint32_t>(d.cell_x),
+                       uint64_t{static_cast<uint32_t>(d.cell_y)} << 32 | static_cast<uint32_t>(d.cell_z));
     h = mixed(h, uint64_t{d.fraction_xy} << 32 | d.fraction_z_class);
-    h = mixed(h, uint64_t{d.id} << 32 | static_cast<uint64_t>(std::lround(static_cast<double>(d.diameter_m) * 1e7)));
+    h = mixed(h, uint64_t{d.id} << 32 |
+                     static_cast<uint64_t>(std::lround(static_cast<double>(d.diameter_m) * 1e7)));
     sum += mixed(h, s.drops.ends(slot) ? d.end : 0);
   }
   return sum;
@@ -509,7 +542,8 @@ void Field::State::describe(Picture& picture) const {
   picture.epoch_ticks = static_cast<uint32_t>(tick - epoch);
   picture.slot_end = drops.end();
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
-    picture.classes[kind] = {classOrigin(kind), classVelocity(kind), classLattices()[kind].cell_m, reachPerDiameter()};
+    picture.classes[kind] = {classOrigin(kind), classVelocity(kind), classLattices()[kind].cell_m,
+                             reachPerDiameter()};
   }
   picture.volumes.clear();
   std::vector<dvec3> eyes;
@@ -557,10 +591,12 @@ void Field::streaks(const ViewState& view, int64_t time_ns, std::vector<Streak>&
     if (!s.drops.alive(slot)) continue;
     const RainDrop& drop = s.drops[slot];
     const uint32_t kind = shared::rainClassOf(drop);
-    const shared::RainStreak streak = shared::rainStreak(drop, setup->classes[kind], setup->view, setup->shelter);
+    const shared::RainStreak streak =
+        shared::rainStreak(drop, setup->classes[kind], setup->view, setup->shelter);
     if (streak.from_s > streak.to_s) continue;
     const dvec3 place = dvec3(streak.drop_m) + eye, velocity(streak.velocity_mps);
-    out.push_back({slot, kind, static_cast<double>(drop.diameter_m), place, place + velocity * static_cast<double>(streak.from_s),
+    out.push_back({slot, kind, static_cast<double>(drop.diameter_m), place,
+                   place + velocity * static_cast<double>(streak.from_s),
                    place + velocity * static_cast<double>(streak.to_s), static_cast<double>(streak.fade)});
   }
 }

@@ -1,12 +1,14 @@
 // The field of falling drops round the views: who lives, where, and until when.
 //
-// In the frame that moves with a class's fall speed and the wind, the drops of that class are a standing Poisson field, hashed by (seed,
-// class, cell). A drop is born when its cell comes into a view's volume and dies when the cell has left all of them, or when its path
-// meets a shelter. Where it is at any time is closed form, so a tick costs births + deaths + cells at the border, not drops alive.
+// In the frame that moves with a class's fall speed and the wind, the drops of that class are a standing
+// Poisson field, hashed by (seed, class, cell). A drop is born when its cell comes into a view's volume and
+// dies when the cell has left all of them, or when its path meets a shelter. Where it is at any time is
+// closed form, so a tick costs births + deaths + cells at the border, not drops alive.
 //
-// State depends on the ticks alone: same seed, same objects, same ticks, same drops. The lattice of cells has its origin where the first
-// vehicle (without one, the first view's eye) stands at the first tick after construction, reset(), or seek() by an unstarted field, and its
-// clock starts at that tick. So the same scene played elsewhere in the world, or at another hour, sees the same rain.
+// State depends on the ticks alone: same seed, same objects, same ticks, same drops. The lattice of cells has
+// its origin where the first vehicle (without one, the first view's eye) stands at the first tick after
+// construction, reset(), or seek() by an unstarted field, and its clock starts at that tick. So the same
+// scene played elsewhere in the world, or at another hour, sees the same rain.
 #pragma once
 
 #include <cstdint>
@@ -34,10 +36,12 @@ struct FieldStats {
   uint64_t uploaded_bytes = 0;      // handed out by publish()
 };
 
-// How far drops are drawn: a drop of diameter D is a particle to the distance `visibility_factor * reference_px * D` and fades before it.
+// How far drops are drawn: a drop of diameter D is a particle to the distance `visibility_factor *
+// reference_px * D` and fades before it.
 struct Visibility {
-  double factor = 1.25;         // 0.25 .. 4; 1: until it is one reference pixel wide
-  double reference_px = 1663.0;  // focal length of 1920 x 1080 at 60 deg horizontally: 960 / tan(30 deg); never the view's own
+  double factor = 1.25;  // 0.25 .. 4; 1: until it is one reference pixel wide
+  double reference_px =
+      1663.0;  // focal length of 1920 x 1080 at 60 deg horizontally: 960 / tan(30 deg); never the view's own
 };
 
 // A streak as drawn for a view, after clipping, in world coordinates.
@@ -57,8 +61,9 @@ class Field {
   Field(const Field&) = delete;
   Field& operator=(const Field&) = delete;
 
-  // Adds or replaces a volume. Returns an empty text, or what is wrong (then nothing changed). Takes effect with the next tick: drops
-  // inside it end, drops on their way into it will end there; where one is taken away the sky fills from above.
+  // Adds or replaces a volume. Returns an empty text, or what is wrong (then nothing changed). Takes effect
+  // with the next tick: drops inside it end, drops on their way into it will end there; where one is taken
+  // away the sky fills from above.
   [[nodiscard]] std::string setVolume(uint32_t id, const VolumeInfo& info);
   bool removeVolume(uint32_t id);        // false: no such volume
   void removeVehicle(uint32_t vehicle);  // with its volumes
@@ -66,27 +71,29 @@ class Field {
   // Drops that are born from now on reach as far as this says. Values are clamped to their range.
   void setVisibility(const Visibility& visibility);
 
-  // Takes the field to the tick's time. Ticks may leave out indices (time passes); one that lies before the last is taken as seek() to it.
-  // No allocation, but for a view or number of cells not met before.
+  // Takes the field to the tick's time. Ticks may leave out indices (time passes); one that lies before the
+  // last is taken as seek() to it. No allocation, but for a view or number of cells not met before.
   void tick(const Tick& tick);
 
-  void reset();                               // as constructed; volumes stay
-  void seek(int64_t tick_index);              // rain as it is at that tick (wind and rate as now); the next tick() is of that index or later
-  void rebase(const glm::dvec3& shift_m);     // the host's world moved: p_new = p_old - shift
+  void reset();                   // as constructed; volumes stay
+  void seek(int64_t tick_index);  // rain as it is at that tick (wind and rate as now); the next tick() is of
+                                  // that index or later
+  void rebase(const glm::dvec3& shift_m);  // the host's world moved: p_new = p_old - shift
 
-  // Whether rain that falls with `velocity_mps` reaches a place as things stand at the last tick; volumes of the vehicle `without` (0: none)
-  // do not count.
+  // Whether rain that falls with `velocity_mps` reaches a place as things stand at the last tick; volumes of
+  // the vehicle `without` (0: none) do not count.
   bool openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without);
 
   FieldStats stats() const;
   uint64_t hash() const;  // over the live drops; independent of the order they came in
 
-  // Hands what changed since the last publish to `upload`, adding to what is still in it. Call on the thread that ticks, under the lock that
-  // guards `upload`.
+  // Hands what changed since the last publish to `upload`, adding to what is still in it. Call on the thread
+  // that ticks, under the lock that guards `upload`.
   void publish(Upload& upload);
   void publishAll(Upload& upload);  // every live drop: for a fresh GL context; replaces what is in it
 
-  // The streaks that would be drawn for a view at a time, by the very kernel that draws them. For tests and debugging.
+  // The streaks that would be drawn for a view at a time, by the very kernel that draws them. For tests and
+  // debugging.
   void streaks(const ViewState& view, int64_t time_ns, std::vector<Streak>& out) const;
 
  private:

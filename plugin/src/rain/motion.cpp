@@ -30,7 +30,9 @@ Pose movedOn(const Pose& pose, double seconds) {
   Pose moved = pose;
   moved.position_m += pose.velocity_mps * seconds;
   const double rate = glm::length(pose.angular_velocity_radps);
-  if (rate > 1e-9) moved.orientation = glm::normalize(glm::angleAxis(rate * seconds, pose.angular_velocity_radps / rate) * pose.orientation);
+  if (rate > 1e-9)
+    moved.orientation =
+        glm::normalize(glm::angleAxis(rate * seconds, pose.angular_velocity_radps / rate) * pose.orientation);
   return moved;
 }
 
@@ -52,7 +54,8 @@ bool BodyPath::advance(double time_s, const Pose& pose, double radius_m, bool ju
   pose_ = pose;
   const Piece& last = pieces_[0];
   const Pose expected = movedOn(last.pose, time_s - last.from_s);
-  const double turned = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(expected.orientation, pose.orientation))));
+  const double turned =
+      2.0 * std::acos(std::min(1.0, std::abs(glm::dot(expected.orientation, pose.orientation))));
   const double off = glm::distance(expected.position_m, pose.position_m) + turned * radius_m;
   if (!jumped && off < kDeparture_m && time_s - last.from_s < kRenewed_s) return false;
   pieces_.add({time_s, pose});

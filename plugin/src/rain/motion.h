@@ -1,5 +1,5 @@
-// Motions as they were and as they are expected to go on: pieces of constant velocity, the last one reaching into the future. A piece ends
-// when what really happens departs from it by a centimetre.
+// Motions as they were and as they are expected to go on: pieces of constant velocity, the last one reaching
+// into the future. A piece ends when what really happens departs from it by a centimetre.
 #pragma once
 
 #include <array>
@@ -40,7 +40,8 @@ class WindPath {
     glm::dvec3 wind_mps{0.0};
   };
   void start(double time_s, const glm::dvec3& carried_m, const glm::dvec3& wind_mps);
-  // Takes the wind to `time_s`, linear in between. True when a new piece had to begin: ends told from the old one are no longer right.
+  // Takes the wind to `time_s`, linear in between. True when a new piece had to begin: ends told from the old
+  // one are no longer right.
   bool advance(double time_s, const glm::dvec3& wind_mps);
 
   const glm::dvec3& carried_m() const { return carried_m_; }
@@ -68,10 +69,12 @@ class BodyPath {
   };
   static constexpr double kRenewed_s = 1.5;  // a prediction is taken afresh at least that often
   static constexpr double kAhead_s = 3.0;    // and looked ahead so far
-  static constexpr double kBehind_s = 3.0;   // drops that met the body earlier have reached the ground: 2 s from a lorry's roof for the slowest
+  static constexpr double kBehind_s = 3.0;   // drops that met the body earlier have reached the ground: 2 s
+                                             // from a lorry's roof for the slowest
 
   void start(double time_s, const Pose& pose);
-  // As WindPath::advance; `radius_m`: how far from its origin the body reaches. `jumped`: the body was put where it is.
+  // As WindPath::advance; `radius_m`: how far from its origin the body reaches. `jumped`: the body was put
+  // where it is.
   bool advance(double time_s, const Pose& pose, double radius_m, bool jumped);
 
   const Pose& pose() const { return pose_; }  // as last told

@@ -25,7 +25,8 @@ std::vector<Posed> nearestFirst(const Picture& picture, const dvec3& eye, double
     const dvec3 centre = outOfBody(pose, volume.centre);
     posed.push_back({&volume, pose, centre, glm::distance(centre, eye) - volume.radius_m});
   }
-  std::stable_sort(posed.begin(), posed.end(), [](const Posed& a, const Posed& b) { return a.gap_m < b.gap_m; });
+  std::stable_sort(posed.begin(), posed.end(),
+                   [](const Posed& a, const Posed& b) { return a.gap_m < b.gap_m; });
   return posed;
 }
 
@@ -34,9 +35,11 @@ void setUpShelter(const Picture& picture, const dvec3& eye, double after_s, shar
   shelter.volume_count = 0;
   for (const Posed& posed : nearestFirst(picture, eye, after_s)) {
     const auto count = static_cast<uint32_t>(posed.volume->planes.size());
-    if (shelter.volume_count == shared::kRainNearVolumes || planes + count > shared::kRainNearPlanes) continue;
+    if (shelter.volume_count == shared::kRainNearVolumes || planes + count > shared::kRainNearPlanes)
+      continue;
     shared::RainVolume& volume = shelter.volumes[shelter.volume_count++];
-    volume = {vec4(vec3(posed.centre - eye), static_cast<float>(posed.volume->radius_m)), planes, count, 0, 0};
+    volume = {vec4(vec3(posed.centre - eye), static_cast<float>(posed.volume->radius_m)), planes, count, 0,
+              0};
     for (const Plane& plane : posed.volume->planes) {
       const dvec3 normal = posed.pose.orientation * plane.normal;
       const double d = plane.d + glm::dot(normal, posed.pose.position_m - eye);
@@ -59,8 +62,9 @@ void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns
     out.classes[kind].base = glm::ivec4(glm::ivec3(base), 0);
   }
   setUpShelter(picture, eye, after_s, out.shelter);
-  out.view.eye_velocity_exposure = vec4(vec3(view.eye_velocity_mps), static_cast<float>(view.exposure_s));
-  const double units = std::floor(after_s * static_cast<double>(kTickHz) * static_cast<double>(shared::kRainEndUnits));
+  out.view.eye_velocity_exposure = vec4(vec3(eyeVelocityOf(view)), static_cast<float>(exposureOf(view)));
+  const double units =
+      std::floor(after_s * static_cast<double>(kTickHz) * static_cast<double>(shared::kRainEndUnits));
   out.view.now = picture.epoch_ticks * 1024u + static_cast<uint32_t>(static_cast<int64_t>(units));
   out.view.tick_s = static_cast<float>(kTickSeconds);
 }

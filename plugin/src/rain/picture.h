@@ -1,4 +1,5 @@
-// What passes from the field (ticking thread) to the renderer (GL thread): changed records, and what is needed to draw all of them.
+// What passes from the field (ticking thread) to the renderer (GL thread): changed records, and what is
+// needed to draw all of them.
 #pragma once
 
 #include <array>
@@ -35,8 +36,8 @@ struct NearVolume {
 struct Picture {
   int64_t tick = 0;
   int64_t time_ns = 0;
-  uint32_t epoch_ticks = 0;   // the tick in the records' own count (RainDrop.end)
-  uint32_t slot_end = 0;      // all live drops lie in slots below
+  uint32_t epoch_ticks = 0;  // the tick in the records' own count (RainDrop.end)
+  uint32_t slot_end = 0;     // all live drops lie in slots below
   std::array<ClassPicture, kClasses> classes;
   std::vector<NearVolume> volumes;
 };

@@ -32,10 +32,12 @@ uint32_t setLamps(std::span<const DropLamp> given, const dvec3& eye, RainLook& l
   for (const DropLamp& lamp : given) lamps.push_back(&lamp);
   const size_t count = std::min<size_t>(lamps.size(), shared::kRainLamps);
   std::partial_sort(lamps.begin(), lamps.begin() + static_cast<std::ptrdiff_t>(count), lamps.end(),
-                    [&](const DropLamp* a, const DropLamp* b) { return glm::distance(a->position_m, eye) < glm::distance(b->position_m, eye); });
+                    [&](const DropLamp* a, const DropLamp* b) {
+                      return glm::distance(a->position_m, eye) < glm::distance(b->position_m, eye);
+                    });
   for (size_t i = 0; i < count; ++i) {
-    look.lamps[i] = {vec4(vec3(lamps[i]->position_m - eye), lamps[i]->cos_inner), vec4(lamps[i]->direction, lamps[i]->cos_outer),
-                     wide(lamps[i]->intensity)};
+    look.lamps[i] = {vec4(vec3(lamps[i]->position_m - eye), lamps[i]->cos_inner),
+                     vec4(lamps[i]->direction, lamps[i]->cos_outer), wide(lamps[i]->intensity)};
   }
   return static_cast<uint32_t>(count);
 }
@@ -44,7 +46,8 @@ void setLight(const RainLighting& lighting, RainLook& look) {
   look.sky = wide(lighting.sky_radiance);
   look.ground = wide(lighting.ground_radiance);
   look.sun_direction = wide(lighting.sun_direction);
-  look.sun_irradiance = wide(glm::length(lighting.sun_direction) > 0.0f ? lighting.sun_irradiance : vec3(0.0f));
+  look.sun_irradiance =
+      wide(glm::length(lighting.sun_direction) > 0.0f ? lighting.sun_irradiance : vec3(0.0f));
 }
 
 void setView(const RainDraw& draw, RainLook& look) {
@@ -53,7 +56,8 @@ void setView(const RainDraw& draw, RainLook& look) {
   look.clipFromWorldAtEye = glm::mat4(p * glm::dmat4(eyeFromWorld));
   look.forward = wide(vec3(glm::transpose(eyeFromWorld) * dvec3(0, 0, -1)));
   look.viewport = vec4(draw.viewport_px);
-  look.focal = vec4(0.5 * p[0][0] * draw.viewport_px.z, 0.5 * p[1][1] * draw.viewport_px.w, draw.gain, draw.target.exposure);
+  look.focal = vec4(0.5 * p[0][0] * draw.viewport_px.z, 0.5 * p[1][1] * draw.viewport_px.w, draw.gain,
+                    draw.target.exposure);
   look.depth_rows = vec4(p[2][2], p[3][2], p[2][3], p[3][3]);
   look.zero_to_one = draw.view->clip_zero_to_one ? 1 : 0;
   look.srgb = draw.target.srgb ? 1 : 0;
@@ -90,11 +94,21 @@ struct RainRenderer::Objects {
 };
 
 RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_drops)
-    : gl(context.gl), capacity(capacity_drops), streak(gl, {"rain/streak.vert", "rain/streak.frag"}), scatter(gl, {"rain/scatter.comp"}),
-      records(gl, size_t{capacity} * sizeof(RainDrop)), slots(gl, kBatch * sizeof(uint32_t)), fresh(gl, kBatch * sizeof(RainDrop)),
-      classes(gl, sizeof(ClassBlock)), shelter(gl, sizeof(shared::RainShelter)), look(gl, sizeof(RainLook)), vertices(gl),
-      nearest(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE), mipmapped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
-      colour_only(gl), last_write(capacity) {
+    : gl(context.gl),
+      capacity(capacity_drops),
+      streak(gl, {"rain/streak.vert", "rain/streak.frag"}),
+      scatter(gl, {"rain/scatter.comp"}),
+      records(gl, size_t{capacity} * sizeof(RainDrop)),
+      slots(gl, kBatch * sizeof(uint32_t)),
+      fresh(gl, kBatch * sizeof(RainDrop)),
+      classes(gl, sizeof(ClassBlock)),
+      shelter(gl, sizeof(shared::RainShelter)),
+      look(gl, sizeof(RainLook)),
+      vertices(gl),
+      nearest(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
+      mipmapped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
+      colour_only(gl),
+      last_write(capacity) {
   records.zero();
   vertices.bindBuffer(0, records.name(), 0, sizeof(RainDrop), 1);
   vertices.integerAttribute(0, 0, 4, GL_INT, 0);
@@ -111,10 +125,12 @@ void RainRenderer::Objects::send(std::span<const uint32_t> to, std::span<const R
   const auto count = static_cast<uint32_t>(to.size());
   scatter.set(0, count);
   gl.DispatchCompute((count + 63) / 64, 1, 1);
-  gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                   GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-// With the depth buffer read in the shader it must not be attached: the host's colour goes on a framebuffer of ours.
+// With the depth buffer read in the shader it must not be attached: the host's colour goes on a framebuffer
+// of ours.
 void RainRenderer::Objects::bindTarget(const RainTarget& target, bool soft_depth) {
   if (!soft_depth) {
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
@@ -127,11 +143,13 @@ void RainRenderer::Objects::bindTarget(const RainTarget& target, bool soft_depth
 
 void RainRenderer::Objects::setDrawState(const RainDraw& draw, bool soft_depth) {
   const glm::ivec4& v = draw.viewport_px;
-  gl.ViewportIndexedf(0, static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w));
+  gl.ViewportIndexedf(0, static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+                      static_cast<float>(v.w));
   gl.ClipControl(GL_LOWER_LEFT, draw.view->clip_zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
   gl.Enablei(GL_BLEND, 0);
   gl.BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
-  gl.BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // the target's alpha is the host's
+  gl.BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO,
+                        GL_ONE);  // the target's alpha is the host's
   gl.Disable(GL_CULL_FACE);
   gl.Enable(GL_DEPTH_CLAMP);  // the host's near plane does not cut drops
   gl.DepthMask(GL_FALSE);
@@ -149,7 +167,8 @@ void RainRenderer::Objects::setDrawState(const RainDraw& draw, bool soft_depth) 
   }
 }
 
-RainRenderer::RainRenderer(const gl::Context& context, uint32_t capacity) : objects_(std::make_unique<Objects>(context, capacity)) {}
+RainRenderer::RainRenderer(const gl::Context& context, uint32_t capacity)
+    : objects_(std::make_unique<Objects>(context, capacity)) {}
 RainRenderer::~RainRenderer() = default;
 
 void RainRenderer::upload(Upload& upload) {
@@ -205,7 +224,8 @@ void RainRenderer::forget() {
   Objects& o = *objects_;
   o.streak.forget();
   o.scatter.forget();
-  for (gl::Buffer* buffer : {&o.records, &o.slots, &o.fresh, &o.classes, &o.shelter, &o.look}) buffer->forget();
+  for (gl::Buffer* buffer : {&o.records, &o.slots, &o.fresh, &o.classes, &o.shelter, &o.look})
+    buffer->forget();
   o.vertices.forget();
   o.nearest.forget();
   o.mipmapped.forget();

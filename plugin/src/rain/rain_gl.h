@@ -33,7 +33,8 @@ struct RainLighting {
 struct RainTarget {
   uint32_t framebuffer = 0;
   uint32_t color_texture = 0;  // attached to it, or 0
-  uint32_t depth_texture = 0;  // attached to it, or 0. With both given depth is read in the shader and streaks end softly at surfaces
+  uint32_t depth_texture = 0;  // attached to it, or 0. With both given depth is read in the shader and
+                               // streaks end softly at surfaces
   int32_t width_px = 0;
   int32_t height_px = 0;
   bool srgb = false;      // the target holds sRGB-encoded values; else linear radiance
@@ -46,8 +47,8 @@ struct RainDraw {
   int64_t time_ns = 0;
   RainTarget target;
   RainLighting lighting;
-  // How much stronger than in nature a streak covers what is behind it. 1 = physical (Garg & Nayar), for camera-sensor work; a 2 mm drop
-  // exposed for 1/60 s then changes what is behind it by about 1 %.
+  // How much stronger than in nature a streak covers what is behind it. 1 = physical (Garg & Nayar), for
+  // camera-sensor work; a 2 mm drop exposed for 1/60 s then changes what is behind it by about 1 %.
   float gain = 6.0f;
 };
 
@@ -59,12 +60,13 @@ class RainRenderer {
   RainRenderer(const RainRenderer&) = delete;
   RainRenderer& operator=(const RainRenderer&) = delete;
 
-  // Takes over what is new and empties `upload`. Touches: program, buffer bindings GL_SHADER_STORAGE_BUFFER 0 and 1.
+  // Takes over what is new and empties `upload`. Touches: program, buffer bindings GL_SHADER_STORAGE_BUFFER 0
+  // .. 2.
   void upload(Upload& upload);
 
-  // Draws the drops as of the last upload, placed at draw.time_ns. Call within a state guard; touches: program, vertex array, uniform buffers
-  // 0 .. 3, texture units 0 and 1 with their samplers, draw framebuffer, viewport, blend, depth, raster state.
-  // Twice the same draw gives the same picture.
+  // Draws the drops as of the last upload, placed at draw.time_ns. Call within a state guard; touches:
+  // program, vertex array, uniform buffers 0 .. 2, texture units 0 and 1 with their samplers, draw
+  // framebuffer, viewport, blend, depth, raster state. Twice the same draw gives the same picture.
   void draw(const RainDraw& draw);
 
   void forget();  // the context is lost: free nothing

@@ -14,7 +14,8 @@ constexpr double kFarthestCell = 1.0e9;
 // The direction, world axes, that is seen at a point of the picture (-1..1).
 dvec3 seenAt(const glm::dmat4& eyeFromClip, const glm::dmat3& worldFromEye, double x, double y) {
   // Two depths on the ray: their difference is the direction, whatever the depth convention.
-  const glm::dvec4 a = eyeFromClip * glm::dvec4(x, y, 0.25, 1.0), b = eyeFromClip * glm::dvec4(x, y, 0.75, 1.0);
+  const glm::dvec4 a = eyeFromClip * glm::dvec4(x, y, 0.25, 1.0),
+                   b = eyeFromClip * glm::dvec4(x, y, 0.75, 1.0);
   dvec3 ray = dvec3(a) / a.w - dvec3(b) / b.w;
   if (ray.z > 0.0) ray = -ray;
   return worldFromEye * glm::normalize(ray);
@@ -32,18 +33,25 @@ struct Sides {
 Sides sidesOf(const Cone& cone, const Margin& margin, double cell_m) {
   Sides sides;
   for (const dvec3& n : cone.inward) {
-    const double wider = (std::abs(glm::dot(margin.sweep_m, n)) + margin.sides_m) / cell_m + 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    // A plane along x bounds no row in x. Tilting it by 1e-4 moves it by less than 0.003 cells anywhere in reach.
+    const double wider = (std::abs(glm::dot(margin.sweep_m, n)) + margin.sides_m) / cell_m +
+                         0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    // A plane along x bounds no row in x. Tilting it by 1e-4 moves it by less than 0.003 cells anywhere in
+    // reach.
     const double nx = std::abs(n.x) < 1e-4 ? 1e-4 : n.x;
-    const Side side{static_cast<float>(-wider / nx), static_cast<float>(-n.y / nx), static_cast<float>(-n.z / nx)};
-    if (nx > 0.0) sides.low[static_cast<size_t>(sides.lows++)] = side;
-    else sides.high[static_cast<size_t>(sides.highs++)] = side;
+    const Side side{static_cast<float>(-wider / nx), static_cast<float>(-n.y / nx),
+                    static_cast<float>(-n.z / nx)};
+    if (nx > 0.0)
+      sides.low[static_cast<size_t>(sides.lows++)] = side;
+    else
+      sides.high[static_cast<size_t>(sides.highs++)] = side;
   }
   return sides;
 }
 
-// Bounds of the region along an axis, from the eye, in cells: of the pyramid with the sphere's radius as its depth, within the sphere.
-void extent(const Cone& cone, const Margin& margin, double cell_m, double radius, int axis, double& low, double& high) {
+// Bounds of the region along an axis, from the eye, in cells: of the pyramid with the sphere's radius as its
+// depth, within the sphere.
+void extent(const Cone& cone, const Margin& margin, double cell_m, double radius, int axis, double& low,
+            double& high) {
   const dvec3 middle = glm::normalize(cone.corners[0] + cone.corners[1] + cone.corners[2] + cone.corners[3]);
   double nearest = 0.0, farthest = 0.0;
   for (const dvec3& corner : cone.corners) {
@@ -52,7 +60,8 @@ void extent(const Cone& cone, const Margin& margin, double cell_m, double radius
     nearest = std::min(nearest, tip);
     farthest = std::max(farthest, tip);
   }
-  // The sides' margin moves the pyramid's edges apart by more than itself where they meet sharply: twice covers 60 deg between them.
+  // The sides' margin moves the pyramid's edges apart by more than itself where they meet sharply: twice
+  // covers 60 deg between them.
   const double wider = 2.0 * (glm::length(margin.sweep_m) + margin.sides_m) / cell_m + 1.5;
   low = std::max(-radius, radius * nearest - wider);
   high = std::min(radius, radius * farthest + wider);
@@ -74,10 +83,21 @@ Cone coneOf(const ViewState& view) {
     cone.inward[i] = normal;
   }
   cone.valid = true;
-  const auto usable = [](const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  const auto usable = [](const dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
   for (size_t i = 0; i < 4; ++i) cone.valid = cone.valid && usable(cone.inward[i]) && usable(cone.corners[i]);
   cone.valid = cone.valid && usable(cone.eye_m);
   return cone;
+}
+
+double exposureOf(const ViewState& view) {
+  return view.exposure_s > 0.0 ? std::min(view.exposure_s, 0.25) : 0.0;
+}
+
+dvec3 eyeVelocityOf(const ViewState& view) {
+  const dvec3 v = view.eye_velocity_mps;
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) ? v : dvec3(0.0);
 }
 
 void findRows(const Cone& cone, const Margin& margin, const dvec3& eye_cells, double cell_m, RowSet& out) {
@@ -91,8 +111,10 @@ void findRows(const Cone& cone, const Margin& margin, const dvec3& eye_cells, do
   double y_low, y_high, z_low, z_high;
   extent(cone, margin, cell_m, radius, 1, y_low, y_high);
   extent(cone, margin, cell_m, radius, 2, z_low, z_high);
-  const int32_t y_first = static_cast<int32_t>(std::floor(eye.y + y_low)), y_last = static_cast<int32_t>(std::ceil(eye.y + y_high));
-  const int32_t z_first = static_cast<int32_t>(std::floor(eye.z + z_low)), z_last = static_cast<int32_t>(std::ceil(eye.z + z_high));
+  const int32_t y_first = static_cast<int32_t>(std::floor(eye.y + y_low)),
+                y_last = static_cast<int32_t>(std::ceil(eye.y + y_high));
+  const int32_t z_first = static_cast<int32_t>(std::floor(eye.z + z_low)),
+                z_last = static_cast<int32_t>(std::ceil(eye.z + z_high));
   const int32_t base_x = static_cast<int32_t>(base.x);
   out.y0 = static_cast<int32_t>(base.y) + y_first;
   out.z0 = static_cast<int32_t>(base.z) + z_first;
@@ -122,7 +144,8 @@ void findRows(const Cone& cone, const Margin& margin, const dvec3& eye_cells, do
         continue;
       }
       // Cells whose middle lies between low and high; both within +-22.
-      const int32_t first = static_cast<int32_t>(std::ceil(low + eye_x - 0.5f)), last = static_cast<int32_t>(std::floor(high + eye_x - 0.5f)) + 1;
+      const int32_t first = static_cast<int32_t>(std::ceil(low + eye_x - 0.5f)),
+                    last = static_cast<int32_t>(std::floor(high + eye_x - 0.5f)) + 1;
       row[iz] = first < last ? RowSpan{base_x + first, base_x + last} : RowSpan{};
     }
   }

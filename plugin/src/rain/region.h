@@ -9,7 +9,8 @@
 
 namespace rg::rain {
 
-// The near part of a view's frustum, from its eye, world axes. Side planes only: the field does not end at the host's near or far plane.
+// The near part of a view's frustum, from its eye, world axes. Side planes only: the field does not end at
+// the host's near or far plane.
 struct Cone {
   glm::dvec3 eye_m{0.0};
   std::array<glm::dvec3, 4> inward;   // unit normals of the side planes, all through the eye
@@ -17,12 +18,16 @@ struct Cone {
   bool valid = false;                 // false: the matrices are no perspective view
 };
 Cone coneOf(const ViewState& view);
+// How long a view's streaks are exposed: 0 .. 0.25 s; what is no number counts as 0.
+double exposureOf(const ViewState& view);
+glm::dvec3 eyeVelocityOf(const ViewState& view);  // 0 when it is no number
 
 // How far beyond the cone cells are wanted, so that no drop or streak is missed until the next tick.
 struct Margin {
-  glm::dvec3 sweep_m{0.0};  // a drop's way past the eye, either sense: in the coming tick and half the exposure
-  double sides_m = 0.0;     // at the sides, for turning
-  double reach_m = 0.0;     // how far the class is seen
+  glm::dvec3 sweep_m{
+      0.0};              // a drop's way past the eye, either sense: in the coming tick and half the exposure
+  double sides_m = 0.0;  // at the sides, for turning
+  double reach_m = 0.0;  // how far the class is seen
 };
 
 // Cells [first, last) of a row along x.
@@ -44,8 +49,9 @@ struct RowSet {
   void clear() { ny = nz = 0; }
 };
 
-// The cells whose cube touches the cone widened by the margin (a few more at its edges). `eye_cells` is the eye's place in the lattice, in
-// cells. A region too large for RowSet is cut at 22 cells from the eye.
-void findRows(const Cone& cone, const Margin& margin, const glm::dvec3& eye_cells, double cell_m, RowSet& out);
+// The cells whose cube touches the cone widened by the margin (a few more at its edges). `eye_cells` is the
+// eye's place in the lattice, in cells. A region too large for RowSet is cut at 22 cells from the eye.
+void findRows(const Cone& cone, const Margin& margin, const glm::dvec3& eye_cells, double cell_m,
+              RowSet& out);
 
 }  // namespace rg::rain

@@ -10,7 +10,8 @@ using glm::dvec3;
 
 constexpr uint32_t kLeaf = 2;
 
-// Times (enter, leave) within [from, to] at which p + v t is inside; enter > leave: never. (Cyrus & Beck 1978.)
+// Times (enter, leave) within [from, to] at which p + v t is inside; enter > leave: never. (Cyrus & Beck
+// 1978.)
 struct Span {
   double enter, leave;
 };
@@ -19,9 +20,12 @@ Span timesInside(std::span<const Plane> planes, const dvec3& p, const dvec3& v, 
   for (const Plane& plane : planes) {
     const double outside = glm::dot(plane.normal, p) - plane.d;
     const double rate = glm::dot(plane.normal, v);
-    if (rate > 0.0) span.leave = std::min(span.leave, -outside / rate);
-    else if (rate < 0.0) span.enter = std::max(span.enter, -outside / rate);
-    else if (outside > 0.0) return {1.0, 0.0};
+    if (rate > 0.0)
+      span.leave = std::min(span.leave, -outside / rate);
+    else if (rate < 0.0)
+      span.enter = std::max(span.enter, -outside / rate);
+    else if (outside > 0.0)
+      return {1.0, 0.0};
     if (span.enter > span.leave) return span;
   }
   return span;
@@ -66,7 +70,9 @@ bool Shelter::remove(uint32_t id) {
 }
 
 void Shelter::removeVehicle(uint32_t vehicle) {
-  changed_ = std::erase_if(volumes_, [&](const auto& v) { return v.second->vehicle == vehicle && vehicle != 0; }) > 0 || changed_;
+  changed_ = std::erase_if(volumes_,
+                           [&](const auto& v) { return v.second->vehicle == vehicle && vehicle != 0; }) > 0 ||
+             changed_;
   bodies_.erase(vehicle);
 }
 
@@ -128,7 +134,8 @@ void Shelter::split(uint32_t node, uint32_t first, uint32_t count) {
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const auto begin = list_.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count, [axis](const auto& a, const auto& b) {
-    return a->shape.centre[axis] != b->shape.centre[axis] ? a->shape.centre[axis] < b->shape.centre[axis] : a->id < b->id;
+    return a->shape.centre[axis] != b->shape.centre[axis] ? a->shape.centre[axis] < b->shape.centre[axis]
+                                                          : a->id < b->id;
   });
   const uint32_t left = static_cast<uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
@@ -144,16 +151,20 @@ Shelter::Changes Shelter::advance(double time_s, std::span<const VehicleState> v
   if (changed_) rebuild();
   changed_ = false;
   for (auto& [id, body] : bodies_) {
-    const auto told = std::find_if(vehicles.begin(), vehicles.end(), [&](const VehicleState& v) { return v.id == id; });
+    const auto told =
+        std::find_if(vehicles.begin(), vehicles.end(), [&](const VehicleState& v) { return v.id == id; });
     Pose pose = body.path.pose();
-    if (told != vehicles.end()) pose = told->pose;
-    else pose.velocity_mps = pose.angular_velocity_radps = dvec3(0.0);  // not listed: it stands still
+    if (told != vehicles.end())
+      pose = told->pose;
+    else
+      pose.velocity_mps = pose.angular_velocity_radps = dvec3(0.0);  // not listed: it stands still
     if (!body.known) {
       if (told == vehicles.end()) continue;
       body.path.start(time_s, pose);
       body.known = true;
       changes.bodies = true;
-    } else if (body.path.advance(time_s, pose, body.radius_m, told != vehicles.end() && told->discontinuity)) {
+    } else if (body.path.advance(time_s, pose, body.radius_m,
+                                 told != vehicles.end() && told->discontinuity)) {
       changes.bodies = changes.bodies || !body.volumes.empty();
     }
   }
@@ -184,7 +195,8 @@ void Shelter::gatherStatic(const dvec3& middle, const dvec3& half, const PathPie
   }
 }
 
-void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& path, double now_s, bool past) {
+void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& path, double now_s,
+                           bool past) {
   for (const auto& [id, body] : bodies_) {
     if (!body.known || body.volumes.empty()) continue;
     bool meets = false;
@@ -194,7 +206,8 @@ void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& 
       for (uint32_t age = 0; age < body.path.pieces() && !meets; ++age) {
         const BodyPath::Piece& motion = body.path.piece(age);
         if (until <= now_s - BodyPath::kBehind_s) break;
-        const double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s}), to = until;
+        const double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s}),
+                     to = until;
         until = std::min(until, motion.from_s);
         if (from >= to) continue;
         const dvec3 v = piece.velocity_mps - motion.pose.velocity_mps;
@@ -207,7 +220,8 @@ void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& 
   }
 }
 
-bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath& path, double now_s, bool past) {
+bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath& path, double now_s,
+                         bool past) {
   met_.clear();
   met_bodies_.clear();
   if (list_.empty()) return false;
@@ -229,9 +243,13 @@ double Shelter::entryOfBody(const Body& body, const dvec3& place, const PathPiec
     const double to = until;
     until = std::min(until, motion.from_s);
     if (from >= to) continue;
-    const auto drop = [&](double t) { return place + piece.from_m + piece.velocity_mps * (t - now_s - piece.from_s); };
+    const auto drop = [&](double t) {
+      return place + piece.from_m + piece.velocity_mps * (t - now_s - piece.from_s);
+    };
     const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from - motion.from_s);
-    if (!meetsSphere(there - drop(from), piece.velocity_mps - motion.pose.velocity_mps, 0.0, to - from, body.radius_m)) continue;
+    if (!meetsSphere(there - drop(from), piece.velocity_mps - motion.pose.velocity_mps, 0.0, to - from,
+                     body.radius_m))
+      continue;
     // A turning body sees a straight path bent; cut so that chords of 3 m arms stay within 1 mm: 0.05 rad.
     const double turn = glm::length(motion.pose.angular_velocity_radps);
     const double step = turn > 1e-6 ? 0.05 / turn : to - from;
@@ -256,7 +274,8 @@ bool Shelter::cameThrough(const dvec3& place, const ClassPath& path, double now_
     const dvec3 from = place + piece.from_m - piece.velocity_mps * piece.from_s;
     for (const uint32_t i : met_) {
       ++tests_;
-      const Span span = timesInside(list_[i]->shape.planes, from, piece.velocity_mps, piece.from_s, piece.to_s);
+      const Span span =
+          timesInside(list_[i]->shape.planes, from, piece.velocity_mps, piece.from_s, piece.to_s);
       if (span.enter <= span.leave) return true;
     }
     for (const Body* body : met_bodies_) {
@@ -289,21 +308,30 @@ bool Shelter::openToSky(const dvec3& place, const dvec3& velocity, uint32_t with
     const Span span = timesInside(shape.planes, from, v, 0.0, past_s);
     return span.enter <= span.leave;
   };
-  if (std::any_of(met_.begin(), met_.end(), [&](uint32_t i) { return meets(list_[i]->shape, place, -velocity); })) return false;
+  if (std::any_of(met_.begin(), met_.end(),
+                  [&](uint32_t i) { return meets(list_[i]->shape, place, -velocity); }))
+    return false;
   for (const auto& [id, body] : bodies_) {
     if (id == without || !body.known) continue;
     const dvec3 from = intoBody(body.path.pose(), place);
     const dvec3 v = (intoBody(body.path.pose(), place - velocity) - from);
-    if (std::any_of(body.volumes.begin(), body.volumes.end(), [&](uint32_t i) { return meets(list_[i]->shape, from, v); })) return false;
+    if (std::any_of(body.volumes.begin(), body.volumes.end(),
+                    [&](uint32_t i) { return meets(list_[i]->shape, from, v); }))
+      return false;
   }
   return true;
 }
 
 void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearVolume>& out) const {
-  const auto closeTo = [&](auto&& gap) { return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; }); };
+  const auto closeTo = [&](auto&& gap) {
+    return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; });
+  };
   for (uint32_t i = 0; i < statics_; ++i) {
     const Convex& shape = list_[i]->shape;
-    if (!closeTo([&](const dvec3& eye) { return glm::length(glm::max(glm::max(shape.box.low - eye, eye - shape.box.high), dvec3(0.0))); })) continue;
+    if (!closeTo([&](const dvec3& eye) {
+          return glm::length(glm::max(glm::max(shape.box.low - eye, eye - shape.box.high), dvec3(0.0)));
+        }))
+      continue;
     out.push_back({0, Pose{}, shape.planes, shape.centre, shape.radius_m});
   }
   for (const auto& [id, body] : bodies_) {

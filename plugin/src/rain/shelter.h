@@ -1,5 +1,5 @@
-// What keeps rain off: static volumes in a tree and the volumes of moving bodies, and the one question asked of them: when does a drop's
-// path, known where it came from and where it goes, meet any of them?
+// What keeps rain off: static volumes in a tree and the volumes of moving bodies, and the one question asked
+// of them: when does a drop's path, known where it came from and where it goes, meet any of them?
 #pragma once
 
 #include <array>
@@ -53,16 +53,17 @@ class Shelter {
   Changes advance(double time_s, std::span<const VehicleState> vehicles);
   void restart();  // what moved before is forgotten; the next advance() begins afresh
 
-  // Finds what the paths through a box (middle, half size) may meet; the next questions are about drops in it.
-  // `past`: also the way they came. Returns whether there is anything.
-  bool lookAround(const glm::dvec3& middle_m, const glm::dvec3& half_m, const ClassPath& path, double now_s, bool past);
+  // Finds what the paths through a box (middle, half size) may meet; the next questions are about drops in
+  // it. `past`: also the way they came. Returns whether there is anything.
+  bool lookAround(const glm::dvec3& middle_m, const glm::dvec3& half_m, const ClassPath& path, double now_s,
+                  bool past);
   // Whether a drop that is at `place_m` now came through a volume, or is in one.
   bool cameThrough(const glm::dvec3& place_m, const ClassPath& path, double now_s);
   // When it will enter one, relative to now; 0 when it is inside, kNever_s when it will not.
   double willEnter(const glm::dvec3& place_m, const ClassPath& path, double now_s);
 
-  // Whether rain that falls with `velocity_mps` reaches a place: no volume, as they stand now, lies up-stream of it. Volumes of the body
-  // `without` do not count (a pane lies against its own cabin).
+  // Whether rain that falls with `velocity_mps` reaches a place: no volume, as they stand now, lies up-stream
+  // of it. Volumes of the body `without` do not count (a pane lies against its own cabin).
   bool openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without);
 
   uint64_t tests() const { return tests_; }
@@ -93,12 +94,14 @@ class Shelter {
   void rebuild();
   void split(uint32_t node, uint32_t first, uint32_t count);
   void gatherStatic(const glm::dvec3& middle_m, const glm::dvec3& half_m, const PathPiece& piece);
-  void gatherBodies(const glm::dvec3& middle_m, double radius_m, const ClassPath& path, double now_s, bool past);
+  void gatherBodies(const glm::dvec3& middle_m, double radius_m, const ClassPath& path, double now_s,
+                    bool past);
   double entryOfBody(const Body& body, const glm::dvec3& place_m, const PathPiece& piece, double now_s);
 
   std::map<uint32_t, std::shared_ptr<Volume>> volumes_;
   bool changed_ = false;
-  std::vector<std::shared_ptr<const Volume>> list_;  // all active ones; static first, in the order of the tree's leaves
+  std::vector<std::shared_ptr<const Volume>>
+      list_;  // all active ones; static first, in the order of the tree's leaves
   uint32_t statics_ = 0;
   std::vector<Node> nodes_;
   std::map<uint32_t, Body> bodies_;

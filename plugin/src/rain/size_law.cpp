@@ -72,7 +72,9 @@ double SizeLaw::flux(double from_mm, double to_mm) const {
 }
 
 double SizeLaw::water_g_m3() const {
-  return n0_per_m3_mm > 0.0 ? 1e-3 * kSphere * n0_per_m3_mm * moment(3, slope_per_mm, kSmallest_mm, kLargest_mm) : 0.0;
+  return n0_per_m3_mm > 0.0
+             ? 1e-3 * kSphere * n0_per_m3_mm * moment(3, slope_per_mm, kSmallest_mm, kLargest_mm)
+             : 0.0;
 }
 
 double SizeLaw::delivered_mm_h() const {
@@ -81,11 +83,13 @@ double SizeLaw::delivered_mm_h() const {
 }
 
 double SizeLaw::meanDiameter_mm() const {
-  return moment(1, slope_per_mm, kSmallest_mm, kLargest_mm) / moment(0, slope_per_mm, kSmallest_mm, kLargest_mm);
+  return moment(1, slope_per_mm, kSmallest_mm, kLargest_mm) /
+         moment(0, slope_per_mm, kSmallest_mm, kLargest_mm);
 }
 
 double SizeLaw::meanDiameterReachingGround_mm() const {
-  return movingMoment(1, slope_per_mm, kSmallest_mm, kLargest_mm) / movingMoment(0, slope_per_mm, kSmallest_mm, kLargest_mm);
+  return movingMoment(1, slope_per_mm, kSmallest_mm, kLargest_mm) /
+         movingMoment(0, slope_per_mm, kSmallest_mm, kLargest_mm);
 }
 
 double SizeLaw::quantile(double from_mm, double to_mm, double u) const {

@@ -16,7 +16,8 @@ uint64_t mix(uint64_t z) {
   return z ^ (z >> 31);
 }
 
-// ln(x) for x in (0, 1], from exact operations alone so that every machine's rain is the same: x = m 2^e, ln m = 2 atanh((m - 1) / (m + 1)).
+// ln(x) for x in (0, 1], from exact operations alone so that every machine's rain is the same: x = m 2^e, ln
+// m = 2 atanh((m - 1) / (m + 1)).
 double portableLog(double x) {
   int exponent = 0;
   double mantissa = std::frexp(x, &exponent);
@@ -24,8 +25,10 @@ double portableLog(double x) {
     mantissa *= 2.0;
     --exponent;
   }
-  const double s = (mantissa - 1.0) / (mantissa + 1.0), q = s * s;  // |s| < 0.172: the term left out is below 1e-12
-  const double series = 1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q / 13)))));
+  const double s = (mantissa - 1.0) / (mantissa + 1.0),
+               q = s * s;  // |s| < 0.172: the term left out is below 1e-12
+  const double series =
+      1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q / 13)))));
   return 2.0 * s * series + exponent * 0.69314718055994531;
 }
 
@@ -61,7 +64,8 @@ const std::array<ClassLattice, kSpeedClasses>& classLattices() {
       made[i].drops = speedClasses()[i];
       // Rounded, so that the last digits of a machine's exp and log do not decide where drops are.
       made[i].drops.speed_mps = std::round(made[i].drops.speed_mps * 0x1p20) * 0x1p-20;
-      made[i].cell_m = std::round(kReferenceReach_per_m * 1e-3 * made[i].drops.to_mm / kCellsPerReach * 0x1p20) * 0x1p-20;
+      made[i].cell_m =
+          std::round(kReferenceReach_per_m * 1e-3 * made[i].drops.to_mm / kCellsPerReach * 0x1p20) * 0x1p-20;
       made[i].cell_m3 = made[i].cell_m * made[i].cell_m * made[i].cell_m;
     }
     return made;

@@ -9,13 +9,13 @@
 
 namespace rg::rain {
 
-// A drop that may be: it exists wherever the class has more than `threshold_m3` drops per m3. With thresholds in ascending order as a Poisson
-// process of their own, the drops that exist are a Poisson field of the right density at every rate, and a rate that changes only adds or
-// takes away drops, never swaps them.
+// A drop that may be: it exists wherever the class has more than `threshold_m3` drops per m3. With thresholds
+// in ascending order as a Poisson process of their own, the drops that exist are a Poisson field of the right
+// density at every rate, and a rate that changes only adds or takes away drops, never swaps them.
 struct Candidate {
   double threshold_m3 = 0.0;
   uint32_t fraction_x = 0, fraction_y = 0, fraction_z = 0;  // of the cell, 16 bits
-  double size = 0.0;                                        // 0 .. 1, its place among the class's drops ordered by size
+  double size = 0.0;  // 0 .. 1, its place among the class's drops ordered by size
   uint32_t id = 0;
 };
 
@@ -38,8 +38,8 @@ struct ClassLattice {
   double cell_m = 1.0;
   double cell_m3 = 1.0;
 };
-// Cells are a sixth of how far the class's largest drops are seen at visibility factor 1.25: small enough to follow the view's edge (they add
-// about a half to its drops), large enough that a view's border has few.
+// Cells are a sixth of how far the class's largest drops are seen at visibility factor 1.25: small enough to
+// follow the view's edge (they add about a half to its drops), large enough that a view's border has few.
 const std::array<ClassLattice, kSpeedClasses>& classLattices();
 
 // Densities of all classes as the rate was over the last seconds: rain that sets in fills the sky from above.
@@ -53,7 +53,9 @@ class RateHistory {
   void fill(double rate_mm_h);
   void add(double rate_mm_h);  // one tick on
   const Entry& now() const { return ring_[now_]; }
-  const Entry& ago(uint32_t ticks) const { return ring_[(now_ + kTicks - (ticks < kTicks ? ticks : kTicks - 1)) % kTicks]; }
+  const Entry& ago(uint32_t ticks) const {
+    return ring_[(now_ + kTicks - (ticks < kTicks ? ticks : kTicks - 1)) % kTicks];
+  }
   const Entry& wettest() const { return ring_[wettest_]; }  // a class has its most drops at the highest rate
   bool steady() const { return steady_ >= kTicks; }
 

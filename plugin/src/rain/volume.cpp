@@ -10,9 +10,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kThinnest_m = 1e-3;   // flatter bodies are called flat
+constexpr double kThinnest_m = 1e-3;  // flatter bodies are called flat
 constexpr double kUnitTolerance = 1e-3;
-constexpr double kLargest_m = 1e7;     // coordinates beyond are a mistake
+constexpr double kLargest_m = 1e7;  // coordinates beyond are a mistake
 
 bool finite(const dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && glm::length(v) < kLargest_m;
@@ -46,7 +46,8 @@ bool firstTetrahedron(std::span<const dvec3> p, std::array<uint32_t, 4>& corner)
   const dvec3 along = p[corner[1]] - p[corner[0]];
   if (glm::length(along) < kThinnest_m) return false;
   corner[2] = farthest([&](const dvec3& q) { return glm::length(glm::cross(along, q - p[corner[0]])); });
-  if (glm::length(glm::cross(along, p[corner[2]] - p[corner[0]])) < kThinnest_m * glm::length(along)) return false;
+  if (glm::length(glm::cross(along, p[corner[2]] - p[corner[0]])) < kThinnest_m * glm::length(along))
+    return false;
   const Plane base = planeThrough(p[corner[0]], p[corner[1]], p[corner[2]]);
   corner[3] = farthest([&](const dvec3& q) { return std::abs(glm::dot(base.normal, q) - base.d); });
   return std::abs(glm::dot(base.normal, p[corner[3]]) - base.d) >= kThinnest_m;
@@ -61,10 +62,13 @@ void addToHull(std::span<const dvec3> p, uint32_t point, double tolerance, std::
       kept.push_back(face);
       continue;
     }
-    for (const auto& edge : {std::pair{face.a, face.b}, std::pair{face.b, face.c}, std::pair{face.c, face.a}}) {
+    for (const auto& edge :
+         {std::pair{face.a, face.b}, std::pair{face.b, face.c}, std::pair{face.c, face.a}}) {
       const auto twin = std::find(rim.begin(), rim.end(), std::pair{edge.second, edge.first});
-      if (twin != rim.end()) rim.erase(twin);
-      else rim.push_back(edge);
+      if (twin != rim.end())
+        rim.erase(twin);
+      else
+        rim.push_back(edge);
     }
   }
   for (const auto& [a, b] : rim) {
@@ -75,11 +79,14 @@ void addToHull(std::span<const dvec3> p, uint32_t point, double tolerance, std::
   faces = std::move(kept);
 }
 
-// The hull's planes, with those that differ by rounding only taken as one, each moved out until it holds all points.
+// The hull's planes, with those that differ by rounding only taken as one, each moved out until it holds all
+// points.
 std::vector<Plane> planesOf(std::span<const dvec3> p, const std::vector<Face>& faces) {
   std::vector<Plane> planes;
   for (const Face& face : faces) {
-    const bool known = std::any_of(planes.begin(), planes.end(), [&](const Plane& q) { return glm::dot(q.normal, face.plane.normal) > 1.0 - 1e-9; });
+    const bool known = std::any_of(planes.begin(), planes.end(), [&](const Plane& q) {
+      return glm::dot(q.normal, face.plane.normal) > 1.0 - 1e-9;
+    });
     if (!known) planes.push_back(face.plane);
   }
   for (Plane& plane : planes) {
@@ -96,8 +103,10 @@ std::string hull(const VolumeInfo& info, std::vector<Plane>& planes) {
   const dvec3 middle = 0.25 * (p[t[0]] + p[t[1]] + p[t[2]] + p[t[3]]);
   const auto addFace = [&](uint32_t a, uint32_t b, uint32_t c) {
     const Plane plane = planeThrough(p[a], p[b], p[c]);
-    if (glm::dot(plane.normal, middle) < plane.d) faces.push_back({a, b, c, plane});
-    else faces.push_back({a, c, b, planeThrough(p[a], p[c], p[b])});
+    if (glm::dot(plane.normal, middle) < plane.d)
+      faces.push_back({a, b, c, plane});
+    else
+      faces.push_back({a, c, b, planeThrough(p[a], p[c], p[b])});
   };
   addFace(t[0], t[1], t[2]);
   addFace(t[0], t[1], t[3]);
@@ -114,7 +123,8 @@ std::string hull(const VolumeInfo& info, std::vector<Plane>& planes) {
 }
 
 bool holds(std::span<const Plane> planes, const dvec3& p, double tolerance) {
-  return std::all_of(planes.begin(), planes.end(), [&](const Plane& q) { return glm::dot(q.normal, p) <= q.d + tolerance; });
+  return std::all_of(planes.begin(), planes.end(),
+                     [&](const Plane& q) { return glm::dot(q.normal, p) <= q.d + tolerance; });
 }
 
 // Corners where three planes meet and all others agree.
@@ -126,8 +136,10 @@ std::vector<dvec3> cornersOf(std::span<const Plane> planes) {
       for (size_t k = j + 1; k < planes.size(); ++k) {
         const double det = glm::dot(line, planes[k].normal);
         if (std::abs(det) < 1e-9) continue;
-        const dvec3 corner = (planes[i].d * glm::cross(planes[j].normal, planes[k].normal) +
-                              planes[j].d * glm::cross(planes[k].normal, planes[i].normal) + planes[k].d * line) / det;
+        const dvec3 corner =
+            (planes[i].d * glm::cross(planes[j].normal, planes[k].normal) +
+             planes[j].d * glm::cross(planes[k].normal, planes[i].normal) + planes[k].d * line) /
+            det;
         if (finite(corner) && holds(planes, corner, 1e-6)) corners.push_back(corner);
       }
     }
@@ -135,7 +147,8 @@ std::vector<dvec3> cornersOf(std::span<const Plane> planes) {
   return corners;
 }
 
-// Whether a ray exists along which no plane is ever met: then the volume is open. An edge of that cone, if there is one, lies in two planes.
+// Whether a ray exists along which no plane is ever met: then the volume is open. An edge of that cone, if
+// there is one, lies in two planes.
 bool isOpen(std::span<const Plane> planes) {
   bool spans_space = false;
   for (size_t i = 0; i < planes.size(); ++i) {
@@ -163,7 +176,8 @@ std::string checkPlanes(const VolumeInfo& info, std::vector<Plane>& planes) {
       return complain(info, which + " is not a finite number");
     }
     const double length = glm::length(plane.normal);
-    if (std::abs(length - 1.0) > kUnitTolerance) return complain(info, "the normal of " + which + " is not of unit length");
+    if (std::abs(length - 1.0) > kUnitTolerance)
+      return complain(info, "the normal of " + which + " is not of unit length");
     plane.normal /= length;
     plane.d /= length;
     planes.push_back(plane);
@@ -176,10 +190,13 @@ std::string boundPlanes(const VolumeInfo& info, std::span<const Plane> planes, s
   std::vector<Plane> turned(planes.begin(), planes.end());
   for (Plane& plane : turned) plane = {-plane.normal, -plane.d};
   std::array<uint32_t, 4> tetrahedron{};
-  const auto solid = [&](const std::vector<dvec3>& c) { return c.size() >= 4 && firstTetrahedron(c, tetrahedron); };
+  const auto solid = [&](const std::vector<dvec3>& c) {
+    return c.size() >= 4 && firstTetrahedron(c, tetrahedron);
+  };
   if (isOpen(planes)) return complain(info, "its planes do not enclose a finite volume");
   if (solid(corners)) return {};
-  if (solid(cornersOf(turned))) return complain(info, "its planes are turned inside out (normals must point out)");
+  if (solid(cornersOf(turned)))
+    return complain(info, "its planes are turned inside out (normals must point out)");
   return complain(info, "its planes enclose nothing, or less than 1 mm");
 }
 
@@ -205,7 +222,8 @@ std::string makeConvex(const VolumeInfo& info, Convex& out) {
       return complain(info, "has " + std::to_string(points.size()) + " vertices, not 4 to 256");
     }
     for (size_t i = 0; i < points.size(); ++i) {
-      if (!finite(points[i])) return complain(info, "vertex " + std::to_string(i) + " is not a finite number");
+      if (!finite(points[i]))
+        return complain(info, "vertex " + std::to_string(i) + " is not a finite number");
     }
     if (auto wrong = hull(info, made.planes); !wrong.empty()) return wrong;
   } else {

@@ -40,9 +40,10 @@ struct Convex {
   double radius_m = 0.0;  // of a sphere about `centre` that holds it
 };
 
-// Builds `out` from `info`. Returns an empty text, or what is wrong with it, naming the volume; then `out` is untouched.
-// Refused: NaN or infinite numbers, too few or many, vertices in a plane (thinner than 1 mm), planes that are not of unit length, leave the
-// volume open, or enclose nothing (turned inside out). Vertices whose hull has more than 64 faces are refused too.
+// Builds `out` from `info`. Returns an empty text, or what is wrong with it, naming the volume; then `out` is
+// untouched. Refused: NaN or infinite numbers, too few or many, vertices in a plane (thinner than 1 mm),
+// planes that are not of unit length, leave the volume open, or enclose nothing (turned inside out). Vertices
+// whose hull has more than 64 faces are refused too.
 [[nodiscard]] std::string makeConvex(const VolumeInfo& info, Convex& out);
 
 }  // namespace rg::rain
