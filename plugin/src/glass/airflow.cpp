@@ -27,10 +27,14 @@ void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, c
   acceleration_mps2_ = acceleration_mps2;
   air_mps_ = air_mps;
   nodes_.resize(map.nodes().size());
+  most_acceleration_mps2_ = most_air_mps_ = 0.0;
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const PaneNode& node = map.nodes()[i];
     nodes_[i].acceleration = glm::vec2(PaneMap::alongGlass(node, acceleration_mps2));
     nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps)));
+    most_acceleration_mps2_ =
+        std::max(most_acceleration_mps2_, static_cast<double>(glm::length(nodes_[i].acceleration)));
+    most_air_mps_ = std::max(most_air_mps_, static_cast<double>(glm::length(nodes_[i].air)));
   }
 }
 

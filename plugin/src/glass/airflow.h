@@ -36,6 +36,9 @@ class ForceField {
   // Per node, for the film: xy acceleration, zw shear stress.
   std::vector<shared::vec4> filmDrive() const;
   bool empty() const { return nodes_.empty(); }
+  // Nowhere on the pane is either greater: what lies between nodes is a mean of theirs.
+  double mostAcceleration_mps2() const { return most_acceleration_mps2_; }
+  double mostAir_mps() const { return most_air_mps_; }
 
  private:
   struct NodePush {
@@ -43,6 +46,7 @@ class ForceField {
   };
   std::vector<NodePush> nodes_;
   glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0};
+  double most_acceleration_mps2_ = 0.0, most_air_mps_ = 0.0;
 };
 
 }  // namespace rg::glass

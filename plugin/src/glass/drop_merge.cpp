@@ -5,15 +5,18 @@
 
 namespace rg::glass {
 namespace {
-constexpr double kCell_m = 8e-3;  // as in drops.cpp
+constexpr double kCell_m = 8e-3;    // as in drops.cpp
+constexpr int kLargestStride = 32;  // ticks; between, the largest radius seen bounds those there are
 constexpr double kTouch = 0.92;  // of the sum of radii: outlines are uneven, so circles must overlap a little
 }  // namespace
 
 void Drops::merge(const DropWorld& world) {
-  largest_radius_m_ = 0.0;
-  for (const Drop& drop : slots_.items) {
-    if (drop.volume_pl != 0)
-      largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
+  if (world.tick % kLargestStride == 0) {
+    largest_radius_m_ = 0.0;
+    for (const Drop& drop : slots_.items) {
+      if (drop.volume_pl != 0)
+        largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
+    }
   }
   for (size_t i = 0; i < changed_.size(); ++i) {
     int slot = changed_[i];
@@ -87,7 +90,6 @@ int Drops::unite(const DropWorld& world, int a, int b) {
   large.base_radius_m = static_cast<float>(std::sqrt(r * r + q * q * apart));
   large.age_s = 0.0f;
   settle(large);
-  largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(large.base_radius_m));
   return a;
 }
 

@@ -42,8 +42,19 @@ void Drops::move(const DropWorld& world) {
   const int count = static_cast<int>(slots_.items.size());
   for (int slot = 0; slot < count; ++slot) {
     const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-    if (drop.volume_pl != 0 && (drop.moving || slot % kRestStride == phase)) slide(world, slot);
+    if (drop.volume_pl == 0) continue;
+    if (drop.moving || (slot % kRestStride == phase && mayMove(world, drop))) slide(world, slot);
   }
+}
+
+// Not where even the greatest forces of the pane together are too weak: most drops, most of the time.
+bool Drops::mayMove(const DropWorld& world, const Drop& drop) {
+  if (!drop.braced) return true;
+  const double acceleration = world.forces.mostAcceleration_mps2(), air = world.forces.mostAir_mps();
+  constexpr double kRounding = 0.999;  // of floats
+  return static_cast<double>(drop.acceleration_s2_m) * acceleration +
+             static_cast<double>(drop.air2_s2_m2) * air * air >
+         kRounding;
 }
 
 void Drops::slide(const DropWorld& world, int slot) {
@@ -55,7 +66,13 @@ void Drops::slide(const DropWorld& world, int slot) {
   const glm::dvec2 force_n = mass_kg * push.acceleration_mps2 + drag_n(drop, push.air_mps, width_m);
   const double force = glm::length(force_n);
   const double hold_n = hold_per_m_ * width_m;
-  if (!drop.moving && force <= hold_n) return;
+  if (!drop.moving && force <= hold_n) {
+    drop.braced = true;
+    drop.acceleration_s2_m = static_cast<float>(mass_kg / hold_n);
+    drop.air2_s2_m2 = static_cast<float>(glm::length(drag_n(drop, {1.0, 0.0}, width_m)) / hold_n);
+    return;
+  }
+  drop.braced = false;
 
   const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
   const double turn = turnAt(drop.place_m, world.pane);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kCell_m = 8e-3;       // of the neighbour grid: few drops are wider
 constexpr int64_t kLeastDrop_pl = 50;  // a hemisphere of 0.03 mm: dries in a blink
-constexpr int kRestStride = 4;         // drops at rest are looked at every fourth tick
+constexpr int kAgeStride = 16;         // ticks from one look at what a drop loses to the next
 
 }  // namespace
 
@@ -65,7 +65,8 @@ void Drops::unlink(int slot) {
 
 // A contact line moves where the angle would leave the range between receding and advancing; otherwise it is
 // pinned.
-void Drops::settle(Drop& drop) const {
+void Drops::settle(Drop& drop) {
+  drop.braced = false;
   const double volume_m3 = cubicMetres(drop.volume_pl);
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double shape = volume_m3 / (radius_m * radius_m * radius_m);
@@ -74,6 +75,7 @@ void Drops::settle(Drop& drop) const {
   if (shape < shape_receding_)
     drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
   drop.height_m = static_cast<float>(capHeight(volume_m3, static_cast<double>(drop.base_radius_m)));
+  largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
 }
 
 int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m,
@@ -104,6 +106,7 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
   drop.heading = glm::vec2(glm::dvec2(std::cos(turn), std::sin(turn)));
   if (as_told) {
     drop.height_m = static_cast<float>(capHeight(cubicMetres(volume_pl), base_radius_m));
+    largest_radius_m_ = std::max(largest_radius_m_, base_radius_m);
   } else {
     settle(drop);
   }
@@ -161,16 +164,16 @@ void Drops::give(const DropWorld& world, const Taker& taker, int64_t volume_pl) 
 }
 
 void Drops::age(const DropWorld& world) {
-  const auto phase = static_cast<size_t>(world.tick % kRestStride + kRestStride) % kRestStride;
-  for (size_t slot = phase; slot < slots_.items.size(); slot += kRestStride) {
+  const auto phase = static_cast<size_t>(world.tick % kAgeStride + kAgeStride) % kAgeStride;
+  for (size_t slot = phase; slot < slots_.items.size(); slot += kAgeStride) {
     Drop& drop = slots_.items[slot];
     if (drop.volume_pl == 0) continue;
-    drop.age_s += static_cast<float>(kRestStride * kTickSeconds);
+    drop.age_s += static_cast<float>(kAgeStride * kTickSeconds);
     const double film_m = world.film.thickness_m(drop.texel);
     // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
     const bool drowns = film_m > 2.0 * surface_.wetting_m &&
                         static_cast<double>(drop.height_m) < 5.0 * film_m &&
-                        shared::unitFloat(shared::pcg(drop.seed + static_cast<uint32_t>(world.tick))) < 0.06f;
+                        shared::unitFloat(shared::pcg(drop.seed + static_cast<uint32_t>(world.tick))) < 0.22f;
     if (drowns) {
       const glm::dvec2 place = drop.place_m;
       const double radius_m = static_cast<double>(drop.base_radius_m);
@@ -189,7 +192,7 @@ void Drops::dry(const DropWorld& world, int slot) {
   const double air_mps = glm::length(world.forces.at(world.map, drop.place_m).air_mps);
   const double rate_kg_s = evaporation_kg_s(radius_m, theta, world.humidity, world.saturated_kg_m3) *
                            ventilation(air_mps, 2.0 * radius_m);
-  const double lost = rate_kg_s / kRho_kg_m3 * kRestStride * kTickSeconds * kPicolitresPerM3;
+  const double lost = rate_kg_s / kRho_kg_m3 * kAgeStride * kTickSeconds * kPicolitresPerM3;
   // Whole picolitres; the rest by chance, so that the mean is right.
   const double chance = static_cast<double>(
       shared::unitFloat(shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(world.tick)))));

@@ -30,7 +30,10 @@ struct Drop {
   int32_t next = -1;  // in its cell's list
   int32_t texel = 0;
   bool moving = false;
-  bool changed = false;  // has to be looked at for neighbours it touches
+  bool braced = false;             // the two below hold: it rests and has its size of then
+  float acceleration_s2_m = 0.0f;  // share of what holds it that an acceleration of 1 m/s^2 takes
+  float air2_s2_m2 = 0.0f;         // ... and air of 1 m/s, with its square
+  bool changed = false;            // has to be looked at for neighbours it touches
 };
 
 // What drops of a pane have in common during a tick.
@@ -81,13 +84,14 @@ class Drops {
     size_t capacity_ = 0;
   };
   void slide(const DropWorld& world, int slot);
+  static bool mayMove(const DropWorld& world, const Drop& drop);
   void leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres);
   void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres);
   bool overEdge(const DropWorld& world, int slot);
   int touching(const DropWorld& world, int slot) const;
   int unite(const DropWorld& world, int a, int b);
   void dry(const DropWorld& world, int slot);
-  void settle(Drop& drop) const;
+  void settle(Drop& drop);
   void link(int slot);
   void unlink(int slot);
   size_t cellOf(glm::dvec2 place_m) const;
