@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <cstdlib>
+#include <glm/common.hpp>
 
 namespace host {
 namespace {
@@ -45,6 +46,11 @@ class GlfwWindow final : public Window {
     glm::ivec2 size{0};
     glfwGetFramebufferSize(window_, &size.x, &size.y);
     return size;
+  }
+  float textScale() const override {
+    float x = 1.0F, y = 1.0F;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return y;
   }
   bool closed() const override { return glfwWindowShouldClose(window_) != 0; }
   void close() override { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
@@ -88,11 +94,20 @@ class GlfwWindow final : public Window {
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) {
       if (self(window).events.on_scroll) self(window).events.on_scroll(steps);
     });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+      const auto& on_button = self(window).events.on_button;
+      if (on_button && button == GLFW_MOUSE_BUTTON_LEFT) on_button(action == GLFW_PRESS);
+    });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) { self(window).moved({x, y}); });
   }
-  void moved(glm::dvec2 to_px) {
+  /// `to` is in the window's own units, which are pixels only where the display does not scale.
+  void moved(glm::dvec2 to) {
+    glm::ivec2 size{1};
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    const glm::dvec2 to_px = to * glm::dvec2(sizePx()) / glm::dvec2(glm::max(size, glm::ivec2(1)));
     const glm::dvec2 by_px = to_px - cursor_px_;
     cursor_px_ = to_px;
+    if (events.on_cursor) events.on_cursor(to_px);
     if (events.on_drag && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) events.on_drag(by_px);
   }
 

@@ -11,6 +11,8 @@ namespace host {
 /// What a person does in the window. Keys are GLFW's (GLFW_KEY_...), given as `key`; `pressed` is false when it is let go.
 struct WindowEvents {
   std::function<void(int key, bool pressed)> on_key;
+  std::function<void(glm::dvec2 at_px)> on_cursor;   ///< from the picture's upper left corner
+  std::function<void(bool pressed)> on_button;       ///< the mouse's left one
   std::function<void(glm::dvec2 moved_px)> on_drag;  ///< the mouse was moved with its left button held
   std::function<void(double steps)> on_scroll;
 };
@@ -21,6 +23,8 @@ class Window : public Context {
 
   /// Size of what is drawn to, in pixels: not the window's size where the display scales.
   virtual glm::ivec2 sizePx() const = 0;
+  /// How many times larger than usual text is to be, as the display asks.
+  virtual float textScale() const = 0;
   virtual bool closed() const = 0;
   virtual void close() = 0;
   virtual bool isDown(int key) const = 0;
@@ -32,7 +36,7 @@ class Window : public Context {
 /// Whether a display is there that a window could open on.
 bool hasDisplay();
 
-/// Throws NoGl45, or std::runtime_error when no window can be had at all.
-std::unique_ptr<Window> makeWindow(const std::string& title, glm::ivec2 size, bool debug = false);
+/// `debug` has the driver check and tell errors. Throws NoGl45, or std::runtime_error when no window can be had at all.
+std::unique_ptr<Window> makeWindow(const std::string& title, glm::ivec2 size, bool debug = true);
 
 }  // namespace host
