@@ -127,8 +127,13 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
   const ReportLayout report(tiles_);
   for (size_t i = 0; i < orders.size(); ++i) {
     if (orders[i].clear) clear();
-    runStep(orders[i], *batch, starts[i], i * report.bytes);
-    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear});
+    if (orders[i].clear) dry_ = true;
+    if (!orders[i].adds.empty() || !orders[i].ridge_adds.empty()) {
+      dry_ = false;
+      watered_step_ = orders[i].step;
+    }
+    if (!dry_) runStep(orders[i], *batch, starts[i], i * report.bytes);
+    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, dry_});
   }
   gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -236,6 +241,12 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   const unsigned char* from = batch.mapped + index * at.bytes;
   FilmReport report;
   report.step = batch.steps[index].step;
+  if (batch.steps[index].asleep) {
+    if (batch.steps[index].clear) wiped_before_ = 0;
+    report.tiles.assign(tiles_, shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
+    report.taken_pl.assign(batch.steps[index].takes, 0);
+    return report;
+  }
   report.tiles.resize(tiles_);
   std::memcpy(report.tiles.data(), from, tiles_ * sizeof(shared::FilmTile));
   report.taken_pl.resize(batch.steps[index].takes);
@@ -248,6 +259,10 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   if (batch.steps[index].clear) wiped_before_ = 0;
   report.wiped_pl = static_cast<int64_t>(wiped - wiped_before_);  // modulo 2^32
   wiped_before_ = wiped;
+  const bool empty = std::all_of(report.tiles.begin(), report.tiles.end(), [](const shared::FilmTile& tile) {
+    return tile.film_low_pl == 0 && tile.film_high == 0;
+  });
+  if (empty && report.ridge_pl == 0 && report.step >= watered_step_) dry_ = true;
   return report;
 }
 

@@ -45,6 +45,7 @@ class FilmGl {
       int64_t step;
       size_t takes;
       bool clear;
+      bool asleep;  // nothing ran: the pane was dry
     };
     std::vector<Step> steps;
   };
@@ -71,6 +72,8 @@ class FilmGl {
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;
   uint32_t wiped_before_ = 0;
+  bool dry_ = true;            // no water on it or in a ridge, as of the last report after it was given some
+  int64_t watered_step_ = -1;  // the last that gave it some
 };
 
 }  // namespace rg::glass
