@@ -1,10 +1,10 @@
 #include "rain/cells.h"
 
-#include "shared/hash.glsl"
+#include <cstddef>
 
 namespace rg::rain {
 namespace {
-constexpr size_t kFirstTable = 1u << 15;  // of 16 384 cells: two views' worth
+constexpr std::size_t kFirstTable = 1u << 15;  // of 16 384 cells: two views' worth
 }
 
 Cells::Cells() {
@@ -14,9 +14,11 @@ Cells::Cells() {
 }
 
 uint32_t Cells::hashOf(const CellKey& key) {
-  const auto mixed = shared::pcg3d({static_cast<uint32_t>(key.x), static_cast<uint32_t>(key.y),
-                                    static_cast<uint32_t>(key.z) * 37u + key.kind});
-  return mixed.x ^ mixed.z;
+  // Two multiplications mix enough for a table that is at most half full.
+  const uint64_t xy =
+      (uint64_t{static_cast<uint32_t>(key.x)} << 32 | static_cast<uint32_t>(key.y)) * 0x9e3779b97f4a7c15u;
+  const uint64_t zk = (uint64_t{static_cast<uint32_t>(key.z)} << 32 | key.kind) + (xy ^ xy >> 32);
+  return static_cast<uint32_t>(zk * 0xd6e8feb86659fd93u >> 32);
 }
 
 uint32_t Cells::find(const CellKey& key) const {
@@ -36,7 +38,7 @@ void Cells::grow() {
 }
 
 uint32_t Cells::acquire(const CellKey& key, bool& fresh) {
-  if ((size_t{live_} + 1) * 2 > table_.size()) grow();
+  if ((std::size_t{live_} + 1) * 2 > table_.size()) grow();
   const uint32_t place = find(key);
   fresh = table_[place] == kNone;
   if (fresh) {

@@ -224,8 +224,8 @@ void Field::State::followView(FollowedView& view, const ViewState& told) {
     const ClassLattice& lattice = classLattices()[kind];
     const dvec3 past = classVelocity(kind) - velocity;
     Margin margin;
-    // A tick ahead with a quarter to spare, and half a streak.
-    margin.sweep_m = past * (1.25 * kTickSeconds + 0.5 * exposureOf(told));
+    margin.ahead_m = past * (1.25 * kTickSeconds);  // a quarter to spare
+    margin.streak_m = past * (0.5 * exposureOf(told));
     const double reach = reachPerDiameter() * 1e-3 * lattice.drops.to_mm;
     margin.sides_m = 0.02 + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
     margin.reach_m = reach + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;

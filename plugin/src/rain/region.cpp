@@ -33,7 +33,9 @@ struct Sides {
 Sides sidesOf(const Cone& cone, const Margin& margin, double cell_m) {
   Sides sides;
   for (const dvec3& n : cone.inward) {
-    const double wider = (std::abs(glm::dot(margin.sweep_m, n)) + margin.sides_m) / cell_m +
+    const double wider = (std::max(0.0, glm::dot(margin.ahead_m, n)) +
+                          std::abs(glm::dot(margin.streak_m, n)) + margin.sides_m) /
+                             cell_m +
                          0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     // A plane along x bounds no row in x. Tilting it by 1e-4 moves it by less than 0.003 cells anywhere in
     // reach.
@@ -62,7 +64,8 @@ void extent(const Cone& cone, const Margin& margin, double cell_m, double radius
   }
   // The sides' margin moves the pyramid's edges apart by more than itself where they meet sharply: twice
   // covers 60 deg between them.
-  const double wider = 2.0 * (glm::length(margin.sweep_m) + margin.sides_m) / cell_m + 1.5;
+  const double wider =
+      2.0 * (glm::length(margin.ahead_m) + glm::length(margin.streak_m) + margin.sides_m) / cell_m + 1.5;
   low = std::max(-radius, radius * nearest - wider);
   high = std::min(radius, radius * farthest + wider);
 }

@@ -24,10 +24,11 @@ glm::dvec3 eyeVelocityOf(const ViewState& view);  // 0 when it is no number
 
 // How far beyond the cone cells are wanted, so that no drop or streak is missed until the next tick.
 struct Margin {
-  glm::dvec3 sweep_m{
-      0.0};              // a drop's way past the eye, either sense: in the coming tick and half the exposure
-  double sides_m = 0.0;  // at the sides, for turning
-  double reach_m = 0.0;  // how far the class is seen
+  glm::dvec3 ahead_m{
+      0.0};  // a drop's way past the eye in the coming tick: room where drops come in, none where they go out
+  glm::dvec3 streak_m{0.0};  // half a streak, either sense
+  double sides_m = 0.0;      // at the sides, for turning
+  double reach_m = 0.0;      // how far the class is seen
 };
 
 // Cells [first, last) of a row along x.
