@@ -37,6 +37,12 @@ RainPlugin::RainPlugin(const std::filesystem::path& library, uint64_t seed) {
   if (entry == nullptr) throw PluginError(file.string() + " has no rg_get_entry");
   api_ = entry(RG_ABI_MAJOR);
   if (api_ == nullptr) throw PluginError(file.string() + " does not speak this ABI");
+  create(seed);
+}
+
+RainPlugin::RainPlugin(const rg_api& api, uint64_t seed) : api_(&api) { create(seed); }
+
+void RainPlugin::create(uint64_t seed) {
   rg_create_info info;
   api_->default_create_info(&info);
   info.seed = seed;

@@ -40,6 +40,8 @@ class RainPlugin {
  public:
   // `library`: the plugin's file; empty: librainglass.so beside this program.
   RainPlugin(const std::filesystem::path& library, uint64_t seed);
+  // One that is linked in.
+  RainPlugin(const rg_api& api, uint64_t seed);
   ~RainPlugin();
   RainPlugin(const RainPlugin&) = delete;
   RainPlugin& operator=(const RainPlugin&) = delete;
@@ -73,6 +75,7 @@ class RainPlugin {
   rg_instance* instance() { return instance_; }
 
  private:
+  void create(uint64_t seed);
   void check(rg_result result, const char* call);
   void addVolume(uint32_t id, uint32_t vehicle, const ShelterView& shelter);
   using DrawCall = rg_result (*)(rg_instance*, rg_draw*);

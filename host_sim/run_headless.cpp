@@ -33,9 +33,10 @@ void showProgress(double time_s, double seconds, uint64_t frames, double wall_s)
 
 int runHeadless(const Options& options) {
   const Scenario scenario = chosenScenario(options);
+  Models models = loadModels(scenario);
   makeFolder(options.out);
   const auto context = makeHeadlessContext();
-  Stage stage(options, scenario, *context);
+  Stage stage(options, scenario, std::move(models), *context);
   const Budget budget = options.budget.empty() ? Budget{} : loadBudget(options.budget, scenario.name, stage.plugin().gpuTimer());
   const Target target(*context, options.size_px);
   const Picture picture(*context, options.size_px);

@@ -38,10 +38,10 @@ void makeFolder(const std::filesystem::path& folder) {
 
 class WindowRun {
  public:
-  WindowRun(const Options& options, const Scenario& scenario)
+  WindowRun(const Options& options, const Scenario& scenario, Models models)
       : options_(options),
         window_(makeWindow("Rainglass", options.size_px)),
-        stage_(options, scenario, *window_),
+        stage_(options, scenario, std::move(models), *window_),
         pilot_(stage_.simulation(), *window_),
         overlay_(*window_, window_->textScale()),
         target_(*window_, window_->sizePx()) {
@@ -179,10 +179,11 @@ int runWindow(const Options& options) {
   if (!hasDisplay()) throw InputError("there is no display for a window; use --headless");
   refuseWhatNeedsNoWindow(options);
   const Scenario scenario = chosenScenario(options);
+  Models models = loadModels(scenario);
   makeFolder(options.out);
   for (const KeyHelp& help : kKeyHelp) std::printf("%-12s  %s\n", help.keys, help.effect);
   std::fflush(stdout);
-  return WindowRun(options, scenario).run();
+  return WindowRun(options, scenario, std::move(models)).run();
 }
 
 }  // namespace host

@@ -53,15 +53,17 @@ Scenario chosenScenario(const Options& options) {
   return s;
 }
 
-Stage::Stage(const Options& options, const Scenario& scenario, Context& context) : scenario_(scenario), context_(context) {
-  if (!scenario.car.empty()) {
-    car_scene_ = loadScene(scenario.car);
-    car_ = carView(*car_scene_);
-  }
-  if (!scenario.road.empty()) {
-    road_scene_ = loadScene(scenario.road);
-    road_ = roadView(*road_scene_);
-  }
+Models loadModels(const Scenario& scenario) {
+  Models models;
+  if (!scenario.car.empty()) models.car = loadScene(scenario.car);
+  if (!scenario.road.empty()) models.road = loadScene(scenario.road);
+  return models;
+}
+
+Stage::Stage(const Options& options, const Scenario& scenario, Models models, Context& context)
+    : scenario_(scenario), context_(context), car_scene_(std::move(models.car)), road_scene_(std::move(models.road)) {
+  if (car_scene_) car_ = carView(*car_scene_);
+  if (road_scene_) road_ = roadView(*road_scene_);
   renderer_ = std::make_unique<Renderer>(context);
   if (road_scene_) road_instance_ = renderer_->addInstance(renderer_->addScene(*road_scene_, SceneFrame::Road));
   if (car_scene_) {

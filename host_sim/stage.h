@@ -23,9 +23,15 @@ std::filesystem::path projectRoot();
 // Scenario and models as the options say. Throws InputError or SceneError.
 Scenario chosenScenario(const Options& options);
 
+// The files of a scenario, read and checked. Throws SceneError. Needs no context, so that a broken file is told of before a window opens.
+struct Models {
+  std::optional<Scene> car, road;
+};
+Models loadModels(const Scenario& scenario);
+
 class Stage {
  public:
-  Stage(const Options& options, const Scenario& scenario, Context& context);
+  Stage(const Options& options, const Scenario& scenario, Models models, Context& context);
 
   // Takes the world and the plugin to a moment of the scenario's clock.
   void update(int64_t time_ns);

@@ -1,0 +1,63 @@
+// A shipped scenario, driven by the host's own simulation on the shipped models, frame by frame, with the oracle's hulls beside it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hull.h"
+#include "rain/field.h"
+#include "rain_only.h"
+#include "simulation.h"
+
+namespace oracle {
+
+struct Variant {
+  std::string scenario;
+  std::vector<std::string> changes{};  // as --set
+  std::string camera = "cockpit";
+  std::string brake_for{};             // shelter of the road on entering which the car brakes at 1 g to a stop; empty: none
+  bool sheltered = true;
+};
+
+class Drive {
+ public:
+  explicit Drive(const Variant& variant);
+
+  // Goes on to the next frame; false after the scenario's end. Frames are 8.2 ticks apart, so that they fall on ticks and at fifths between.
+  bool next();
+
+  // ---- of the frame ----
+  double time_s() const { return static_cast<double>(time_ns_) * 1e-9; }
+  int64_t pluginTime_ns() const { return simulation_.pluginTime(time_ns_); }
+  rg::ViewState view() const;
+  host::CarState car() const { return simulation_.carAt(time_ns_); }
+  rg::rain::Field& field() { return *rainOnly(plugin_.instance()).field; }
+  glm::dvec3 wind_mps() const { return simulation_.weather().wind_mps; }
+  double rain_mm_h() const { return simulation_.weather().rain_mm_h; }
+
+  const std::vector<Hull>& roadHulls() const { return road_hulls_; }
+  // How deep a segment given in world coordinates lies in the deepest of all volumes, the car's posed as it is at the frame.
+  double depth(const glm::dvec3& a, const glm::dvec3& b) const;
+
+  double hardest_braking_mps2 = 0.0;  // seen so far
+  bool was_under_cover = false;       // the car was, at some frame
+
+ private:
+  struct Models {
+    host::CarView car;
+    host::RoadView road;
+  };
+  static const Models& models();
+  void brake();
+
+  host::Scenario scenario_;
+  host::RainPlugin plugin_;
+  host::Simulation simulation_;
+  std::vector<Hull> road_hulls_, car_hulls_;
+  std::optional<size_t> brake_for_;
+  bool braking_ = false;
+  int64_t time_ns_ = 0, frame_ = -1;
+};
+
+}  // namespace oracle
