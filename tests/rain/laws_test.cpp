@@ -16,8 +16,9 @@ size_t groupOf(uint32_t kind) { return kind / 4; }
 struct Motion {
   const char* name;
   double rate_mm_h, speed_mps;
-  double turn_radps;    // steadily, or when swinging the fastest
-  bool swings = false;  // to and fro, three times in four seconds
+  double turn_radps;           // steadily, or when swinging the fastest
+  bool swings = false;         // to and fro, three times in four seconds
+  double crosswind_mps = 0.0;  // in Appearance
   double headingAt(double t) const {
     constexpr double kOften = 2.0 * 3.14159265358979 * 0.75;
     return swings ? turn_radps / kOften * std::sin(kOften * t) : turn_radps * t;
@@ -279,6 +280,7 @@ TEST_P(Appearance, isOnlyEverFromOutsideTheView) {
   const Motion motion = GetParam();
   Field field({.capacity = 200000, .seed = 9});
   Scene scene = sceneWithView(motion.rate_mm_h);
+  scene.weather.wind_mps = {0, motion.crosswind_mps, 0};
   const auto at = [&](double ticks, ViewState& view) {
     const double t = ticks * kTickSeconds;
     look(view, {motion.speed_mps * t, 0, 1.5}, motion.headingAt(t));
@@ -323,7 +325,8 @@ INSTANTIATE_TEST_SUITE_P(Motions, Appearance,
                          ::testing::Values(Motion{"standing", 50, 0, 0}, Motion{"driving", 50, 100 * kKmh, 0},
                                            Motion{"turning", 50, 0, 1.0472},
                                            Motion{"swinging", 50, 0, 1.0472, true},
-                                           Motion{"drivingAndSwinging", 50, 100 * kKmh, 1.0472, true}),
+                                           Motion{"drivingAndSwinging", 50, 100 * kKmh, 1.0472, true},
+                                           Motion{"inCrosswind", 50, 0, 0, false, 20}),
                          nameOf);
 
 // ---- thinning
