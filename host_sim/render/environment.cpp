@@ -52,6 +52,8 @@ Environment::Environment(const GladGLContext& gl)
       prefilter_program_(gl, {"full.vert"}, {"cube.glsl", "prefilter.frag"}) {
   sky_ = makeCube(gl, kSkySize, 9);
   mirrored_ = makeCube(gl, kMirrorSize, kMips);
+  // One mip per look-up: half the cost in software, and neighbouring mips differ little.
+  gl.TextureParameteri(mirrored_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   gl.CreateFramebuffers(1, &framebuffer_);
   gl.CreateVertexArrays(1, &no_vertices_);
 }

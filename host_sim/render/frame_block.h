@@ -18,10 +18,14 @@ struct FrameBlock {
   glm::vec4 haze{0.0F};
   glm::vec4 air{0.0F};
   glm::vec4 eye{0.0F};
+  glm::vec4 plane{0.0F};
+  glm::vec4 screen{0.0F};
+  glm::mat4 car_from_rel{1.0F};
+  glm::vec4 car{0.0F};
   std::array<glm::vec4, kMaxLamps> lamp_place{};
   std::array<glm::vec4, kMaxLamps> lamp_aim{};
   std::array<glm::vec4, kMaxLamps> lamp_intensity{};
 };
-static_assert(sizeof(FrameBlock) == (8 + 9 + 5 + 3 * kMaxLamps) * sizeof(glm::vec4));
+static_assert(sizeof(FrameBlock) == (8 + 9 + 5 + 7 + 3 * kMaxLamps) * sizeof(glm::vec4));
 
 }  // namespace host

@@ -121,6 +121,15 @@ void GpuScene::uploadMeshes(const Scene& scene) {
     draws.push_back({from.first, from.count, from.body, from.material, from.part, from.role, 0.5F * (from.min_m + from.max_m),
                      0.5F * (from.max_m - from.min_m)});
   }
+  if (frame == SceneFrame::Car) {
+    glm::vec3 min(1e30F), max(-1e30F);
+    for (const MergedVertex& v : merged.vertices) {
+      const glm::vec3 p(host_from_file * glm::vec4(v.position_m, 1.0F));
+      min = glm::min(min, p), max = glm::max(max, p);
+    }
+    // A little less than its bounds: bumpers are round and mirrors stand out.
+    footprint = {0.45F * (max.x - min.x), 0.42F * (max.y - min.y), 0.5F * (max.x + min.x), 1.0F};
+  }
   const auto make = [&](GLuint& buffer, const void* data, std::size_t bytes) {
     gl_.CreateBuffers(1, &buffer);
     gl_.NamedBufferStorage(buffer, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 4)), bytes > 0 ? data : nullptr, 0);

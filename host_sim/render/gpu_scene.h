@@ -23,6 +23,9 @@ enum Feature : unsigned {
   kGlossy = 64,
   kShelter = 128,
   kSun = 256,
+  kMirror = 512,
+  kCarAbove = 1024,
+  kAbovePlane = 2048,
 };
 
 struct GpuMaterial {
@@ -72,6 +75,7 @@ class GpuScene {
   std::vector<GpuLamp> lamps;
   std::vector<GpuGrid> grids;  ///< in the host's frame of the scene
   GLuint vertex_array = 0;
+  glm::vec4 footprint{0.0F};   ///< of a car: half length, half width, middle along x (m), 1
 
  private:
   void uploadMaterials(const Scene& scene);

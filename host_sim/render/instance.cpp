@@ -38,7 +38,12 @@ void Instance::place(const Placement& to) {
     now.position_m = glm::dvec3(world_from_lamp[3]);
     now.direction = -glm::normalize(glm::vec3(world_from_lamp[2]));
     now.intensity = lamp.light.colour * (lamp.light.intensity * level / kCandelaPerUnit);
-    if (lamp.light.kind == LightKind::Spot) {
+    if (lamp.role == static_cast<int>(LightRole::Head)) {
+      // A low beam is brightest just below the horizon and falls to a tenth 10 degrees off (UNECE R112, points 50R to 4L); a spot's flat
+      // middle would burn two discs into the road before the bumper.
+      now.cos_inner = 1.0F;
+      now.cos_outer = std::cos(0.24F);
+    } else if (lamp.light.kind == LightKind::Spot) {
       now.cos_inner = std::cos(lamp.light.inner_cone_rad);
       now.cos_outer = std::cos(lamp.light.outer_cone_rad);
     }

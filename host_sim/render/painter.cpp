@@ -7,9 +7,10 @@ namespace host {
 namespace {
 
 constexpr std::size_t kLampsPerDraw = 16;
+constexpr float kDepthFirst_m = 40.0F;  // beyond, parts are small and hide little of each other
 constexpr std::size_t kGridsPerDraw = 2;
 
-constexpr std::array<std::pair<unsigned, const char*>, 9> kNames = {{{kBaseMap, "BASE_MAP"},
+constexpr std::array<std::pair<unsigned, const char*>, 12> kNames = {{{kBaseMap, "BASE_MAP"},
                                                                      {kRoughnessMap, "ROUGHNESS_MAP"},
                                                                      {kNormalMap, "NORMAL_MAP"},
                                                                      {kGlowMap, "GLOW_MAP"},
@@ -17,7 +18,10 @@ constexpr std::array<std::pair<unsigned, const char*>, 9> kNames = {{{kBaseMap, 
                                                                      {kBlend, "BLEND"},
                                                                      {kGlossy, "GLOSSY"},
                                                                      {kShelter, "SHELTER"},
-                                                                     {kSun, "SUN"}}};
+                                                                     {kSun, "SUN"},
+                                                                      {kMirror, "MIRROR"},
+                                                                      {kCarAbove, "CAR_ABOVE"},
+                                                                      {kAbovePlane, "ABOVE_PLANE"}}};
 
 bool overlaps(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) {
   const glm::vec3 middle(placed.box_from_world * glm::dvec4(glm::dvec3(item.middle) + eye_m, 1.0));
@@ -28,7 +32,7 @@ bool overlaps(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) 
 
 }  // namespace
 
-Painter::Painter(const GladGLContext& gl) : gl_(gl) {
+Painter::Painter(const GladGLContext& gl) : gl_(gl), depth_(gl, {"frame.glsl", "depth.vert"}, {"depth.frag"}) {
   gl.CreateBuffers(1, &frame_buffer_);
   gl.NamedBufferStorage(frame_buffer_, sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
@@ -49,7 +53,7 @@ const Program& Painter::program(unsigned features) {
 }
 
 void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps, std::span<const PlacedGrid> grids,
-                       GLuint mirrored, GLuint shadow) {
+                       const FrameTextures& textures) {
   frame_ = frame;
   eye_m_ = eye_m;
   grids_ = grids;
@@ -64,15 +68,25 @@ void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<cons
   }
   gl_.NamedBufferSubData(frame_buffer_, 0, sizeof(FrameBlock), &frame_);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer_);
-  gl_.BindTextureUnit(4, mirrored);
-  gl_.BindTextureUnit(5, shadow);
+  gl_.BindTextureUnit(4, textures.mirrored);
+  gl_.BindTextureUnit(5, textures.shadow);
+  gl_.BindTextureUnit(8, textures.mirror_picture);
+}
+
+bool Painter::underCar(const DrawItem& item) const {
+  if (frame_.car.w <= 0.0F) return false;
+  const glm::vec3 at(frame_.car_from_rel * glm::vec4(item.middle, 1.0F));
+  return glm::length(glm::max(glm::abs(item.middle - glm::vec3(glm::inverse(frame_.car_from_rel)[3])) - item.half, 0.0F)) < 6.0F && at.z < 60.0F;
 }
 
 unsigned Painter::featuresOf(const DrawItem& item, bool sheltered) const {
   unsigned features = item.material().features;
-  if (frame_.air.x * item.material().film > 0.0F) features |= kGlossy;
+  const bool road = item.instance->scene->frame == SceneFrame::Road;
+  if (frame_.air.x * item.material().film > 0.0F) features |= kGlossy | (frame_.screen.z > 0.0F ? kMirror : 0U);
+  if (road && underCar(item)) features |= kCarAbove;
   if (sheltered) features |= kShelter;
   if (frame_.to_sun.w > 0.0F) features |= kSun;
+  if (frame_.screen.w > 0.0F) features |= kAbovePlane;
   return features;
 }
 
@@ -156,6 +170,7 @@ void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& la
   its.use();
   const bool blended = (features & kBlend) != 0;
   (blended ? gl_.Enable : gl_.Disable)(GL_BLEND);
+  gl_.DepthFunc(features & (kBlend | kMask) ? GL_GREATER : GL_GEQUAL);
   (item.material().double_sided ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
   gl_.DepthMask(blended ? GL_FALSE : GL_TRUE);
   its.set("u_rel_from_body", item.rel_from_body);
@@ -165,12 +180,33 @@ void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& la
   gl_.BindVertexArray(item.instance->scene->vertex_array);
 }
 
+/// Solid parts' depth first: a surface that something hides is then not lit in vain, which on a software renderer is most of the time.
+void Painter::paintDepth(const DrawList& list) {
+  if (frame_.screen.w > 0.0F) return;  // the mirror picture is small: little to save
+  depth_.use();
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl_.Enable(GL_CULL_FACE);
+  gl_.Disable(GL_BLEND);
+  for (const DrawItem& item : list.items()) {
+    if (item.material().features & (kBlend | kMask)) break;
+    if (item.distance_m > kDepthFirst_m) continue;
+    (item.material().double_sided ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+    depth_.set("u_rel_from_body", item.rel_from_body);
+    gl_.BindVertexArray(item.instance->scene->vertex_array);
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(item.draw->count), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(std::uintptr_t{item.draw->first} * sizeof(std::uint32_t)));
+  }
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 Painted Painter::paint(const DrawList& list) {
   Painted painted;
   gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthMask(GL_TRUE);
   gl_.DepthFunc(GL_GREATER);
   gl_.CullFace(GL_BACK);
   gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  paintDepth(list);
   std::span<const DrawItem> items = list.items();
   std::vector<GLsizei> counts;
   std::vector<const void*> firsts;

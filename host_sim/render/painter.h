@@ -20,6 +20,13 @@ struct PlacedGrid {
   const Instance* owner = nullptr;
 };
 
+/// Textures that all draws of a frame share.
+struct FrameTextures {
+  GLuint mirrored = 0;        ///< the environment as rough surfaces mirror it, cube
+  GLuint shadow = 0;
+  GLuint mirror_picture = 0;  ///< what stands on wet ground, seen from below, with mips; 0: none
+};
+
 struct Painted {
   std::uint64_t triangles = 0, draws = 0;
 };
@@ -32,8 +39,8 @@ class Painter {
   Painter& operator=(const Painter&) = delete;
 
   /// Takes what is common to the draws to come.
-  void setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps, std::span<const PlacedGrid> grids, GLuint mirrored,
-                GLuint shadow);
+  void setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps, std::span<const PlacedGrid> grids, 
+                const FrameTextures& textures);
   Painted paint(const DrawList& list);
 
  private:
@@ -47,6 +54,8 @@ class Painter {
   using Lamps = std::vector<GLint>;
   Grids gridsOf(const DrawItem& item) const;
   Lamps lampsOf(const DrawItem& item) const;
+  bool underCar(const DrawItem& item) const;
+  void paintDepth(const DrawList& list);
   std::size_t alike(std::span<const DrawItem> items) const;
   void setState(const DrawItem& item, const Grids& grids, const Lamps& lamps);
   void setMaterial(const Program& program, const DrawItem& item, unsigned features) const;
@@ -54,6 +63,7 @@ class Painter {
   void setGrids(const Program& program, const Grids& grids) const;
 
   const GladGLContext& gl_;
+  Program depth_;
   std::map<unsigned, std::unique_ptr<Program>> programs_;
   GLuint frame_buffer_ = 0;
   FrameBlock frame_;

@@ -16,20 +16,20 @@ bool meetsBox(glm::vec3 min, glm::vec3 max, glm::vec3 from, glm::vec3 inverse, f
   return std::max({in.x, in.y, in.z, 0.0F}) <= std::min({out.x, out.y, out.z, reach_m});
 }
 
-/// Moeller & Trumbore 1997.
-bool meetsTriangle(const glm::vec3* corner, glm::vec3 from, glm::vec3 direction, float reach_m) {
+/// Where the ray meets a triangle, or `reach_m` (Moeller & Trumbore 1997).
+float meetsTriangle(const glm::vec3* corner, glm::vec3 from, glm::vec3 direction, float reach_m) {
   const glm::vec3 u = corner[1] - corner[0], v = corner[2] - corner[0];
   const glm::vec3 p = glm::cross(direction, v);
   const float det = glm::dot(u, p);
-  if (std::abs(det) < 1e-12F) return false;
+  if (std::abs(det) < 1e-12F) return reach_m;
   const glm::vec3 s = from - corner[0];
   const float a = glm::dot(s, p) / det;
-  if (a < 0.0F || a > 1.0F) return false;
+  if (a < 0.0F || a > 1.0F) return reach_m;
   const glm::vec3 q = glm::cross(s, u);
   const float b = glm::dot(direction, q) / det;
-  if (b < 0.0F || a + b > 1.0F) return false;
+  if (b < 0.0F || a + b > 1.0F) return reach_m;
   const float t = glm::dot(v, q) / det;
-  return t > 1e-4F && t < reach_m;
+  return t > 1e-4F && t < reach_m ? t : reach_m;
 }
 
 }  // namespace
@@ -72,8 +72,8 @@ std::uint32_t RayTree::build(std::uint32_t first, std::uint32_t count, std::vect
   return self;
 }
 
-bool RayTree::hits(glm::vec3 from, glm::vec3 direction, float reach_m) const {
-  if (boxes_.empty()) return false;
+float RayTree::nearest(glm::vec3 from, glm::vec3 direction, float reach_m) const {
+  if (boxes_.empty()) return reach_m;
   const glm::vec3 inverse = 1.0F / direction;
   std::uint32_t stack[64] = {0};
   int depth = 1;
@@ -87,10 +87,10 @@ bool RayTree::hits(glm::vec3 from, glm::vec3 direction, float reach_m) const {
       continue;
     }
     for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {
-      if (meetsTriangle(&corners_[3 * i], from, direction, reach_m)) return true;
+      reach_m = meetsTriangle(&corners_[3 * static_cast<std::size_t>(i)], from, direction, reach_m);
     }
   }
-  return false;
+  return reach_m;
 }
 
 }  // namespace host

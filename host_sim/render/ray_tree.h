@@ -12,7 +12,9 @@ class RayTree {
   /// Takes triangles, three corners each.
   explicit RayTree(std::vector<glm::vec3> corners);
   /// Whether anything lies on the ray within `reach_m`. Both sides of a triangle count.
-  bool hits(glm::vec3 from, glm::vec3 direction, float reach_m) const;
+  bool hits(glm::vec3 from, glm::vec3 direction, float reach_m) const { return nearest(from, direction, reach_m) < reach_m; }
+  /// How far the ray gets: `reach_m` when nothing stops it before.
+  float nearest(glm::vec3 from, glm::vec3 direction, float reach_m) const;
 
  private:
   struct Box {

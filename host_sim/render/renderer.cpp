@@ -18,13 +18,20 @@ namespace {
 /// A glowing surface of emissive factor 1, 1000 cd/m^2: a lit window or lamp cover that is seen to glow by day.
 constexpr float kGlow = 6.0F;
 /// Share of the light outside that lamps and walls keep up in the darkest shelter.
-constexpr double kBounceInShelter = 0.02F;
+constexpr double kBounceInShelter = 0.02;
+/// What is seen from a shelter is more than the mean over all directions: its mouth lies ahead, at the height of the eyes. Chosen by eye.
+constexpr double kPartOfAdaptation = 0.7;
 
 glm::dvec3 eyeOf(const glm::dmat4& eye_from_world) { return glm::dvec3(glm::inverse(eye_from_world)[3]); }
+
+/// Clip from directions in world axes.
+glm::mat4 turnedOnly(const View& view) { return glm::mat4(view.projection * glm::dmat4(glm::dmat3(view.eye_from_world))); }
 
 }  // namespace
 
 struct Renderer::Self {
+  using What = std::vector<std::pair<const Instance*, unsigned>>;
+
   explicit Self(const Context& context)
       : gl(context.gl()), environment(gl), shadow(gl), painter(gl), background(gl, {"full.vert"}, {"frame.glsl", "background.frag"}),
         tone(gl, {"full.vert"}, {"tone.frag"}) {
@@ -40,6 +47,8 @@ struct Renderer::Self {
   Painter painter;
   Program background, tone;
   GLuint no_vertices = 0;
+  std::unique_ptr<MirrorPicture> mirror_picture;
+  const Instance* nearest_car = nullptr;  ///< its wheels stand on the ground that mirrors, and it shades it
   std::deque<GpuScene> scenes;
   std::deque<Instance> instances;
   std::vector<PlacedGrid> grids;
@@ -51,10 +60,12 @@ struct Renderer::Self {
   bool isRoad(const Instance& instance) const { return instance.scene->frame == SceneFrame::Road; }
   void placeGrids();
   void gatherLamps(glm::dvec3 eye_m);
-  FrameBlock frameFor(const glm::dmat4& eye_from_world, const glm::dmat4& projection, glm::dvec3 eye_m) const;
+  FrameBlock frameFor(const View& view, glm::ivec2 size_px, glm::dvec3 eye_m) const;
+  void findCar(glm::dvec3 eye_m);
+  bool paintMirror(const View& view, glm::ivec2 size_px, const What& what);
   void begin(GLuint framebuffer, glm::ivec2 size_px);
-  Painted paintFrom(const View& view, const std::vector<std::pair<const Instance*, unsigned>>& what, float least_size);
-  void paintSky(const View& view);
+  Painted paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size, bool mirror = false);
+  void paintSky(const glm::mat4& clip_from_rel);
   void writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve);
   glm::vec4 lightAt(glm::dvec3 point_m, float& share) const;
 
@@ -91,9 +102,20 @@ void Renderer::Self::gatherLamps(glm::dvec3 eye_m) {
   if (lamps.size() > kMaxLamps) lamps.resize(kMaxLamps);
 }
 
-FrameBlock Renderer::Self::frameFor(const glm::dmat4& eye_from_world, const glm::dmat4& projection, glm::dvec3 eye_m) const {
+void Renderer::Self::findCar(glm::dvec3 eye_m) {
+  nearest_car = nullptr;
+  double nearest_m = 30.0;
+  for (const Instance& instance : instances) {
+    const double distance_m = glm::distance(glm::dvec3(instance.worldFromHost()[3]), eye_m);
+    if (isRoad(instance) || distance_m > nearest_m) continue;
+    nearest_m = distance_m;
+    nearest_car = &instance;
+  }
+}
+
+FrameBlock Renderer::Self::frameFor(const View& view, glm::ivec2 size_px, glm::dvec3 eye_m) const {
   FrameBlock frame;
-  frame.clip_from_rel = glm::mat4(projection * glm::dmat4(glm::dmat3(eye_from_world)));
+  frame.clip_from_rel = turnedOnly(view);
   frame.sh = environment.irradiance();
   const bool sunny = !environment.isPicture() && cloudCover(sky) < 1.0;
   frame.to_sun = glm::vec4(glm::normalize(sky.to_sun), sunny ? 1.0F : 0.0F);
@@ -102,6 +124,14 @@ FrameBlock Renderer::Self::frameFor(const glm::dmat4& eye_from_world, const glm:
   frame.haze = glm::vec4(environment.horizonRadiance(), static_cast<float>(extinction(sky)));
   frame.air = {static_cast<float>(sky.wetness), environment.lastMip(), environment.brightness(), kGlow};
   frame.eye = glm::vec4(glm::vec3(glm::mod(eye_m, 1024.0)), 0.0F);
+  frame.screen = glm::vec4(1.0F / glm::vec2(size_px), 0.0F, 0.0F);
+  if (nearest_car == nullptr) return frame;
+  glm::dmat4 rel_from_car = nearest_car->worldFromHost();
+  rel_from_car[3] -= glm::dvec4(eye_m, 0.0);
+  const glm::dvec3 up(rel_from_car[2]);
+  frame.plane = glm::vec4(glm::vec3(up), static_cast<float>(glm::dot(up, glm::dvec3(rel_from_car[3]))));
+  frame.car_from_rel = glm::mat4(glm::inverse(rel_from_car));
+  frame.car = nearest_car->scene->footprint;
   return frame;
 }
 
@@ -116,18 +146,53 @@ void Renderer::Self::begin(GLuint framebuffer, glm::ivec2 size_px) {
   gl.FrontFace(GL_CCW);
 }
 
-Painted Renderer::Self::paintFrom(const View& view, const std::vector<std::pair<const Instance*, unsigned>>& what, float least_size) {
+Painted Renderer::Self::paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size, bool mirror) {
   const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
-  const FrameBlock frame = frameFor(view.eye_from_world, view.projection, eye_m);
+  FrameBlock frame = frameFor(view, size_px, eye_m);
+  frame.screen.z = mirror ? 1.0F : 0.0F;
   DrawList list(eye_m, frame.clip_from_rel, least_size);
   for (const auto& [instance, parts] : what) list.add(*instance, parts);
   list.sort();
-  painter.setFrame(frame, eye_m, lamps, grids, environment.mirrored(), shadow.texture());
+  painter.setFrame(frame, eye_m, lamps, grids, {environment.mirrored(), shadow.texture(), mirror ? mirror_picture->texture() : 0});
   return painter.paint(list);
 }
 
-void Renderer::Self::paintSky(const View& view) {
-  const glm::mat4 clip_from_rel(view.projection * glm::dmat4(glm::dmat3(view.eye_from_world)));
+/// The world above the wet ground as its mirror shows it, at a quarter of the size. False where no ground is known or it is dry.
+bool Renderer::Self::paintMirror(const View& view, glm::ivec2 size_px, const What& what) {
+  if (nearest_car == nullptr || sky.wetness <= 0.0) return false;
+  const glm::ivec2 small = glm::max(size_px / 4, glm::ivec2(16));
+  if (!mirror_picture || mirror_picture->sizePx() != small) mirror_picture = std::make_unique<MirrorPicture>(gl, small);
+  const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
+  FrameBlock frame = frameFor(view, small, eye_m);
+  const glm::vec3 n(frame.plane);
+  if (frame.plane.w > -0.05F) return false;  // the eye is not above the ground
+  glm::mat4 mirror_from_rel(1.0F);
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) mirror_from_rel[column][row] -= 2.0F * n[row] * n[column];
+  }
+  const glm::mat4 turned = frame.clip_from_rel * mirror_from_rel;
+  mirror_from_rel[3] = glm::vec4(2.0F * frame.plane.w * n, 1.0F);
+  frame.clip_from_rel = frame.clip_from_rel * mirror_from_rel;
+  frame.plane.w += 0.02F;  // the ground itself is not to be seen in it
+  frame.air.x = 0.0F;
+  frame.screen.w = 1.0F;
+
+  begin(mirror_picture->framebuffer(), small);
+  const float far = 0.0F;
+  gl.ClearNamedFramebufferfv(mirror_picture->framebuffer(), GL_DEPTH, 0, &far);
+  gl.FrontFace(GL_CW);
+  DrawList list(eye_m, frame.clip_from_rel, 0.02F);
+  for (const auto& [instance, parts] : what) list.add(*instance, parts);
+  list.sort();
+  painter.setFrame(frame, eye_m, lamps, grids, {environment.mirrored(), shadow.texture(), 0});
+  painter.paint(list);
+  gl.FrontFace(GL_CCW);
+  paintSky(turned);
+  gl.GenerateTextureMipmap(mirror_picture->texture());
+  return true;
+}
+
+void Renderer::Self::paintSky(const glm::mat4& clip_from_rel) {
   background.use();
   background.set("u_rel_from_clip", glm::inverse(clip_from_rel));
   gl.BindTextureUnit(4, environment.sky());
@@ -198,6 +263,7 @@ void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
   });
   self.placeGrids();
   self.gatherLamps(eye_m);
+  self.findCar(eye_m);
   for (Instance& instance : self.instances) {
     if (self.isRoad(instance)) continue;
     instance.open = static_cast<float>(skyVisibility(glm::dvec3(instance.worldFromHost() * glm::dvec4(1.3, 0.0, 1.0, 1.0))));
@@ -213,17 +279,22 @@ void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
 
 void Renderer::drawWorld(const View& view, const Target& target, std::span<const InstanceId> whole) {
   Self& self = *self_;
-  self.begin(target.framebuffer(), target.sizePx());
-  const float far = 0.0F;
-  self.gl.ClearNamedFramebufferfv(target.framebuffer(), GL_DEPTH, 0, &far);
-  std::vector<std::pair<const Instance*, unsigned>> what;
+  Self::What what;
   for (const Instance& instance : self.instances) {
     if (self.isRoad(instance)) what.emplace_back(&instance, kBody | kWipers | kPanes);
   }
   for (InstanceId id : whole) what.emplace_back(&self.instances.at(id), kBody);
+  bool mirror = false;
+  self.timed("mirror", [&] {
+    mirror = self.paintMirror(view, target.sizePx(), what);
+    return Painted{};
+  });
+  self.begin(target.framebuffer(), target.sizePx());
+  const float far = 0.0F;
+  self.gl.ClearNamedFramebufferfv(target.framebuffer(), GL_DEPTH, 0, &far);
   self.timed("world", [&] {
-    const Painted painted = self.paintFrom(view, what, 0.001F);
-    self.paintSky(view);
+    const Painted painted = self.paintFrom(view, target.sizePx(), what, 0.001F, mirror);
+    self.paintSky(turnedOnly(view));
     return painted;
   });
 }
@@ -231,7 +302,7 @@ void Renderer::drawWorld(const View& view, const Target& target, std::span<const
 void Renderer::drawParts(const View& view, const Target& target, InstanceId instance, unsigned parts) {
   Self& self = *self_;
   self.begin(target.framebuffer(), target.sizePx());
-  self.timed(parts & kBody ? "cabin" : "wipers", [&] { return self.paintFrom(view, {{&self.instances.at(instance), parts}}, 0.0F); });
+  self.timed(parts & kBody ? "cabin" : "wipers", [&] { return self.paintFrom(view, target.sizePx(), {{&self.instances.at(instance), parts}}, 0.0F); });
 }
 
 void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world, const glm::dmat4& projection) {
@@ -239,14 +310,14 @@ void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const gl
   self.begin(framebuffer, size_px);
   const float far = 0.0F;
   self.gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
-  std::vector<std::pair<const Instance*, unsigned>> what;
+  Self::What what;
   for (const Instance& instance : self.instances) {
     if (self.isRoad(instance)) what.emplace_back(&instance, kBody | kWipers | kPanes);
   }
   const View view{eye_from_world, projection};
   self.timed("capture", [&] {
-    const Painted painted = self.paintFrom(view, what, 0.012F);
-    self.paintSky(view);
+    const Painted painted = self.paintFrom(view, size_px, what, 0.012F);
+    self.paintSky(turnedOnly(view));
     return painted;
   });
 }
@@ -283,7 +354,7 @@ LightSummary Renderer::lighting() const {
 double Renderer::adaptingLuminance(glm::dvec3 eye_m) const {
   const glm::vec3 around = 0.5F * (self_->environment.skyRadiance() + self_->environment.groundRadiance());
   const double open = glm::dot(glm::dvec3(around), glm::dvec3(0.2126, 0.7152, 0.0722));
-  return open * (kBounceInShelter + (1.0 - kBounceInShelter) * skyVisibility(eye_m));
+  return open * std::pow(kBounceInShelter + (1.0 - kBounceInShelter) * skyVisibility(eye_m), kPartOfAdaptation);
 }
 
 void Renderer::setTiming(bool on) { self_->timing = on; }

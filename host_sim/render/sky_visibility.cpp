@@ -13,6 +13,12 @@ constexpr float kPi = 3.14159265F;
 
 struct Box {
   glm::vec3 corner{0.0F}, x{1.0F, 0.0F, 0.0F}, y{0.0F, 1.0F, 0.0F}, size{1.0F};
+  /// Whether a point is inside, or little off: walls and floor count as inside.
+  bool holds(glm::vec3 p) const {
+    const glm::vec3 d = p - corner;
+    const glm::vec3 at{glm::dot(d, x), glm::dot(d, y), d.z};
+    return glm::all(glm::greaterThan(at, glm::vec3(-0.6F))) && glm::all(glm::lessThan(at, size + 0.6F));
+  }
 };
 
 /// The upright box of least floor area around the points: a tunnel does not lie along the axes.
@@ -48,13 +54,17 @@ glm::vec3 direction(int i) {
   return {s * std::cos(angle), s * std::sin(angle), z};
 }
 
-/// Only the sky gives light: what the ground returns is the shader's constant.
-glm::vec4 lightAt(const RayTree& tree, glm::vec3 from) {
+/// What a surface sends on: albedo 0.12 of what falls on open ground under an overcast sky (7/9 of its zenith); little inside.
+constexpr float kLitOutside = 0.12F * 7.0F / 9.0F;
+constexpr float kLitInside = 0.006F;
+
+glm::vec4 lightAt(const RayTree& tree, glm::vec3 from, const Box& shelter) {
   glm::vec4 light(0.0F);
   for (int i = 0; i < kRays; ++i) {
     const glm::vec3 to = direction(i);
-    if (to.z <= 0.0F || tree.hits(from, to, kReach_m)) continue;
-    const float radiance = (1.0F + 2.0F * to.z) / 3.0F;
+    const float distance_m = tree.nearest(from, to, kReach_m);
+    float radiance = to.z > 0.0F ? (1.0F + 2.0F * to.z) / 3.0F : kLitOutside;
+    if (distance_m < kReach_m) radiance = shelter.holds(from + distance_m * to) ? kLitInside : kLitOutside;
     light += glm::vec4(radiance, 3.0F * radiance * to) / static_cast<float>(kRays);
   }
   return light;
@@ -85,6 +95,7 @@ glm::vec4 SkyGrid::at(glm::vec3 scene_m) const {
 
 SkyGrid measureSky(const RayTree& tree, std::span<const glm::vec3> points_m, float step_m, float border_m) {
   Box box = uprightBox(points_m);
+  const Box shelter = box;
   const glm::vec3 border(border_m, border_m, std::min(border_m, 0.15F * box.size.z));
   box.corner -= box.x * border.x + box.y * border.y + glm::vec3(0.0F, 0.0F, border.z);
   box.size += 2.0F * border;
@@ -99,7 +110,7 @@ SkyGrid measureSky(const RayTree& tree, std::span<const glm::vec3> points_m, flo
   grid.box_from_scene = glm::inverse(scene_from_box);
   for (int i = 0; i < grid.cells.x * grid.cells.y * grid.cells.z; ++i) {
     const glm::vec3 at(i % grid.cells.x, i / grid.cells.x % grid.cells.y, i / (grid.cells.x * grid.cells.y));
-    grid.light.push_back(lightAt(tree, glm::vec3(scene_from_box * glm::vec4((at + 0.5F) / glm::vec3(grid.cells), 1.0F))));
+    grid.light.push_back(lightAt(tree, glm::vec3(scene_from_box * glm::vec4((at + 0.5F) / glm::vec3(grid.cells), 1.0F)), shelter));
   }
   return grid;
 }

@@ -12,7 +12,8 @@
 namespace host {
 
 /// The light that comes in at points of a box, relative to the zenith of an overcast sky: x its mean over all directions, yzw its gradient
-/// (L(w) ~ x + yzw . w). Radiance of the CIE overcast sky where a ray is free, 0 where it is blocked.
+/// (L(w) ~ x + yzw . w). Radiance of the CIE overcast sky where a ray is
+/// free; where it is blocked, of lit ground outside the shelter or of the dark inside.
 struct SkyGrid {
   std::string name;
   glm::mat4 box_from_scene{1.0F};  ///< 0..1 in the box, its borders included

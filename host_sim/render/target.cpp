@@ -35,6 +35,25 @@ void Target::release() {
   framebuffer_ = colour_ = depth_ = 0;
 }
 
+MirrorPicture::MirrorPicture(const GladGLContext& gl, glm::ivec2 size_px) : gl_(gl), size_px_(size_px) {
+  gl.CreateTextures(GL_TEXTURE_2D, 1, &colour_);
+  gl.TextureStorage2D(colour_, 4, GL_RGBA16F, size_px.x, size_px.y);
+  gl.TextureParameteri(colour_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  gl.TextureParameteri(colour_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TextureParameteri(colour_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.CreateTextures(GL_TEXTURE_2D, 1, &depth_);
+  gl.TextureStorage2D(depth_, 1, GL_DEPTH_COMPONENT32F, size_px.x, size_px.y);
+  gl.CreateFramebuffers(1, &framebuffer_);
+  gl.NamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, colour_, 0);
+  gl.NamedFramebufferTexture(framebuffer_, GL_DEPTH_ATTACHMENT, depth_, 0);
+}
+
+MirrorPicture::~MirrorPicture() {
+  gl_.DeleteFramebuffers(1, &framebuffer_);
+  gl_.DeleteTextures(1, &colour_);
+  gl_.DeleteTextures(1, &depth_);
+}
+
 Picture::Picture(const Context& context, glm::ivec2 size_px) : gl_(context.gl()), size_px_(size_px) {
   gl_.CreateTextures(GL_TEXTURE_2D, 1, &colour_);
   gl_.TextureStorage2D(colour_, 1, GL_RGBA8, size_px.x, size_px.y);

@@ -4,6 +4,9 @@
 //   GLOSSY    mirrors the environment cube; else its mean light only
 //   SHELTER   a volume with its measured sky visibility is near
 //   SUN       the sun shines, with shadow map
+//   MIRROR    wet ground with a mirror picture of what stands above it
+//   ABOVE_PLANE the mirror picture itself: nothing below the ground
+//   CAR_ABOVE a car shades the ground below it
 in vec3 v_position;
 in vec3 v_normal;
 in vec2 v_uv;
@@ -36,6 +39,7 @@ layout(binding = 4) uniform samplerCube u_environment;
 layout(binding = 5) uniform sampler2DShadow u_shadow;
 layout(binding = 6) uniform sampler3D u_visibility0;
 layout(binding = 7) uniform sampler3D u_visibility1;
+layout(binding = 8) uniform sampler2D u_mirror;
 
 // Split-sum scale and bias of the reflectance at normal incidence (Karis 2014, analytic fit).
 vec2 reflectanceTerms(float roughness, float facing) {
@@ -69,6 +73,10 @@ float puddles(vec2 p) {
 }
 
 void main() {
+#ifdef ABOVE_PLANE
+  // Clip distances would do, but with Mesa 22's llvmpipe they are slow, and lose triangles while they are written but not enabled.
+  if (dot(frame.plane.xyz, v_position) < frame.plane.w) discard;
+#endif
   vec4 base = u_base * v_colour;
 #ifdef BASE_MAP
   vec4 texel = texture(u_base_map, v_uv);
@@ -131,10 +139,18 @@ void main() {
   vec3 light = skyLight(n) * u_open;
   vec3 mirrored = reflect(-to_eye, n);
   float reach = u_open;
+#ifdef CAR_ABOVE
+  vec3 in_car = (frame.car_from_rel * vec4(v_position, 1.0)).xyz;
+  vec2 beyond = max(abs(in_car.xy - vec2(frame.car.z, 0.0)) - frame.car.xy, 0.0);
+  // Sky light below a body some 0.2 m above the ground: none under it, all of it a metre off.
+  float shade = 1.0 - 0.92 * exp(-dot(beyond, beyond) * 9.0 - 1.2 * (beyond.x + beyond.y)) * step(in_car.z, 0.3);
+  light *= shade;
+  reach *= shade;
+#endif
 #ifdef SHELTER
   // Irradiance / pi from mean and gradient; an open overcast sky gives 7/9 of its zenith on level ground.
   vec3 zenith = skyLight(vec3(0.0, 0.0, 1.0)) * (9.0 / 7.0) * u_open;
-  vec3 inner = zenith * (max(seen.x + 0.667 * dot(seen.yzw, n), 0.0) + 0.25 * seen.x);
+  vec3 inner = zenith * (max(seen.x + 0.667 * dot(seen.yzw, n), 0.0) + 0.15 * seen.x);
   light = light * (1.0 - shelter) + inner;
   float open_sky = max(0.333 + 0.583 * mirrored.z, 0.12);
   reach *= 1.0 - shelter + clamp(max(seen.x * (1.0 / 0.333) * shelter * 0.1, seen.x + dot(seen.yzw, mirrored)) / open_sky, 0.0, shelter);
@@ -147,7 +163,19 @@ void main() {
 #else
   vec3 around = skyLight(mirrored);
 #endif
-  vec3 shine = around * reflected * reach;
+  around *= reach;
+#ifdef MIRROR
+  // What stands on the ground, from a picture taken below it; where the ground leaves the plane, the surroundings at infinity.
+  float off = abs(dot(frame.plane.xyz, v_position) - frame.plane.w) / (0.05 + 0.01 * distance_m);
+  float flat_here = film * exp(-off * off);
+  vec2 at = gl_FragCoord.xy * frame.screen.xy + (n.xy - frame.plane.xy) * vec2(0.05, 0.15);
+  float spread = 1.0 + 2.2 * (1.0 - pool);
+  float high = (0.01 + 0.03 * (1.0 - pool)) * clamp(20.0 / distance_m, 0.3, 1.5);
+  vec3 stood = 0.4 * textureLod(u_mirror, at, spread).rgb + 0.3 * textureLod(u_mirror, at - vec2(0.0, high), spread).rgb +
+               0.3 * textureLod(u_mirror, at + vec2(0.0, high), spread).rgb;
+  around = mix(around, stood, flat_here);
+#endif
+  vec3 shine = around * reflected;
   float alpha2 = roughness * roughness;
   alpha2 = max(alpha2 * alpha2, 2e-4);
 

@@ -15,6 +15,8 @@ out vec4 v_colour;
 out vec4 v_tangent;
 #endif
 
+invariant gl_Position;
+
 void main() {
   vec4 position = u_rel_from_body * vec4(in_position, 1.0);
   v_position = position.xyz;
