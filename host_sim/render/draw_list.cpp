@@ -16,7 +16,8 @@ int rankOf(unsigned features, float distance_m) {
 
 }  // namespace
 
-DrawList::DrawList(glm::dvec3 eye_m, const glm::mat4& clip_from_rel, float least_size) : eye_m_(eye_m), least_size_(least_size) {
+DrawList::DrawList(glm::dvec3 eye_m, const glm::mat4& clip_from_rel, float least_size, float farthest_m)
+    : eye_m_(eye_m), least_size_(least_size), farthest_m_(farthest_m) {
   const glm::mat4 rows = glm::transpose(clip_from_rel);
   planes_ = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
 }
@@ -37,7 +38,7 @@ void DrawList::add(const Instance& instance, unsigned parts) {
     const bool outside = std::any_of(planes_.begin(), planes_.end(), [&](glm::vec4 plane) {
       return glm::dot(glm::vec3(plane), item.middle) + plane.w + glm::dot(glm::abs(glm::vec3(plane)), item.half) < 0.0F;
     });
-    if (outside || glm::length(item.half) < least_size_ * item.distance_m) continue;
+    if (outside || glm::length(item.half) < least_size_ * item.distance_m || item.distance_m > farthest_m_) continue;
     item.rank = rankOf(item.material().features, item.distance_m);
     items_.push_back(item);
   }

@@ -21,8 +21,9 @@ struct DrawItem {
 
 class DrawList {
  public:
-  /// `least_size`: bounds that are smaller than that share of their distance are left out.
-  DrawList(glm::dvec3 eye_m, const glm::mat4& clip_from_rel, float least_size = 0.0F);
+  /// `least_size`: bounds that are smaller than that share of their distance are left out,
+  /// and those beyond `farthest_m`.
+  DrawList(glm::dvec3 eye_m, const glm::mat4& clip_from_rel, float least_size = 0.0F, float farthest_m = 1e9F);
   void add(const Instance& instance, unsigned parts);
   /// Solid parts from near to far, then cut-out ones, then blended ones from far to near. Far off, those that look alike stand together, so
   /// that they can be drawn at once.
@@ -32,7 +33,7 @@ class DrawList {
  private:
   glm::dvec3 eye_m_;
   std::array<glm::vec4, 5> planes_;  ///< left, right, bottom, top, near: inside where positive
-  float least_size_;
+  float least_size_, farthest_m_;
   std::vector<DrawItem> items_;
 };
 

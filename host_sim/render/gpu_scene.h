@@ -25,7 +25,6 @@ enum Feature : unsigned {
   kSun = 256,
   kMirror = 512,
   kCarAbove = 1024,
-  kAbovePlane = 2048,
 };
 
 struct GpuMaterial {

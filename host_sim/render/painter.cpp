@@ -10,7 +10,7 @@ constexpr std::size_t kLampsPerDraw = 16;
 constexpr float kDepthFirst_m = 40.0F;  // beyond, parts are small and hide little of each other
 constexpr std::size_t kGridsPerDraw = 2;
 
-constexpr std::array<std::pair<unsigned, const char*>, 12> kNames = {{{kBaseMap, "BASE_MAP"},
+constexpr std::array<std::pair<unsigned, const char*>, 11> kNames = {{{kBaseMap, "BASE_MAP"},
                                                                      {kRoughnessMap, "ROUGHNESS_MAP"},
                                                                      {kNormalMap, "NORMAL_MAP"},
                                                                      {kGlowMap, "GLOW_MAP"},
@@ -20,8 +20,7 @@ constexpr std::array<std::pair<unsigned, const char*>, 12> kNames = {{{kBaseMap,
                                                                      {kShelter, "SHELTER"},
                                                                      {kSun, "SUN"},
                                                                       {kMirror, "MIRROR"},
-                                                                      {kCarAbove, "CAR_ABOVE"},
-                                                                      {kAbovePlane, "ABOVE_PLANE"}}};
+                                                                      {kCarAbove, "CAR_ABOVE"}}};
 
 bool overlaps(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) {
   const glm::vec3 middle(placed.box_from_world * glm::dvec4(glm::dvec3(item.middle) + eye_m, 1.0));
@@ -86,7 +85,6 @@ unsigned Painter::featuresOf(const DrawItem& item, bool sheltered) const {
   if (road && underCar(item)) features |= kCarAbove;
   if (sheltered) features |= kShelter;
   if (frame_.to_sun.w > 0.0F) features |= kSun;
-  if (frame_.screen.w > 0.0F) features |= kAbovePlane;
   return features;
 }
 
@@ -182,7 +180,6 @@ void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& la
 
 /// Solid parts' depth first: a surface that something hides is then not lit in vain, which on a software renderer is most of the time.
 void Painter::paintDepth(const DrawList& list) {
-  if (frame_.screen.w > 0.0F) return;  // the mirror picture is small: little to save
   depth_.use();
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   gl_.Enable(GL_CULL_FACE);

@@ -17,6 +17,8 @@ namespace {
 
 /// A glowing surface of emissive factor 1, 1000 cd/m^2: a lit window or lamp cover that is seen to glow by day.
 constexpr float kGlow = 6.0F;
+/// From below the ground nothing hides what is far, so all of it would be drawn; and far ground has left the plane.
+constexpr float kMirrorReach_m = 120.0F;
 /// Share of the light outside that lamps and walls keep up in the darkest shelter.
 constexpr double kBounceInShelter = 0.02;
 /// What is seen from a shelter is more than the mean over all directions: its mouth lies ahead, at the height of the eyes. Chosen by eye.
@@ -157,7 +159,9 @@ Painted Renderer::Self::paintFrom(const View& view, glm::ivec2 size_px, const Wh
   return painter.paint(list);
 }
 
-/// The world above the wet ground as its mirror shows it, at a quarter of the size. False where no ground is known or it is dry.
+/// The world above the wet ground as its mirror shows it, at a quarter of the size. False where no ground is known or it is dry. Nothing is
+/// clipped at the ground: from below, its own faces are turned away, and feet that reach into it look as long as they are. (Clip distances
+/// make Mesa 22's llvmpipe slow and lose triangles.)
 bool Renderer::Self::paintMirror(const View& view, glm::ivec2 size_px, const What& what) {
   if (nearest_car == nullptr || sky.wetness <= 0.0) return false;
   const glm::ivec2 small = glm::max(size_px / 4, glm::ivec2(16));
@@ -173,15 +177,13 @@ bool Renderer::Self::paintMirror(const View& view, glm::ivec2 size_px, const Wha
   const glm::mat4 turned = frame.clip_from_rel * mirror_from_rel;
   mirror_from_rel[3] = glm::vec4(2.0F * frame.plane.w * n, 1.0F);
   frame.clip_from_rel = frame.clip_from_rel * mirror_from_rel;
-  frame.plane.w += 0.02F;  // the ground itself is not to be seen in it
   frame.air.x = 0.0F;
-  frame.screen.w = 1.0F;
 
   begin(mirror_picture->framebuffer(), small);
   const float far = 0.0F;
   gl.ClearNamedFramebufferfv(mirror_picture->framebuffer(), GL_DEPTH, 0, &far);
   gl.FrontFace(GL_CW);
-  DrawList list(eye_m, frame.clip_from_rel, 0.02F);
+  DrawList list(eye_m, frame.clip_from_rel, 0.02F, kMirrorReach_m);
   for (const auto& [instance, parts] : what) list.add(*instance, parts);
   list.sort();
   painter.setFrame(frame, eye_m, lamps, grids, {environment.mirrored(), shadow.texture(), 0});

@@ -5,7 +5,6 @@
 //   SHELTER   a volume with its measured sky visibility is near
 //   SUN       the sun shines, with shadow map
 //   MIRROR    wet ground with a mirror picture of what stands above it
-//   ABOVE_PLANE the mirror picture itself: nothing below the ground
 //   CAR_ABOVE a car shades the ground below it
 in vec3 v_position;
 in vec3 v_normal;
@@ -50,7 +49,7 @@ vec2 reflectanceTerms(float roughness, float facing) {
   return vec2(-1.04, 1.04) * a + r.zw;
 }
 
-// Albedo of a porous surface soaked with water: Lekner & Dorf 1988, eqs. for n = 1.5 (see wetAlbedo in tests/host_render).
+// Albedo of a porous surface soaked with water: Lekner & Dorf 1988, eqs. for n = 1.5.
 vec3 wetAlbedo(vec3 dry) {
   vec3 a = 1.0 - dry;
   vec3 wet = a * (dry * 1.068 + a);
@@ -73,10 +72,6 @@ float puddles(vec2 p) {
 }
 
 void main() {
-#ifdef ABOVE_PLANE
-  // Clip distances would do, but with Mesa 22's llvmpipe they are slow, and lose triangles while they are written but not enabled.
-  if (dot(frame.plane.xyz, v_position) < frame.plane.w) discard;
-#endif
   vec4 base = u_base * v_colour;
 #ifdef BASE_MAP
   vec4 texel = texture(u_base_map, v_uv);

@@ -1,0 +1,183 @@
+// The renderer on a scene made here: what it must keep to whatever the models are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "render/renderer.h"
+
+namespace host {
+namespace {
+
+constexpr glm::ivec2 kSize{160, 90};
+
+/// A box in the file's axes (y up), seen from outside.
+Primitive box(glm::vec3 min, glm::vec3 max, int material) {
+  Primitive p;
+  p.material = material;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (float side : {-1.0F, 1.0F}) {
+      glm::vec3 n(0.0F), u(0.0F), v(0.0F);
+      n[axis] = side;
+      u[(axis + 1) % 3] = side;
+      v[(axis + 2) % 3] = 1.0F;
+      const auto base = static_cast<std::uint32_t>(p.positions_m.size());
+      for (glm::vec3 corner : {n - u - v, n + u - v, n + u + v, n - u + v}) {
+        p.positions_m.push_back(glm::mix(min, max, 0.5F * (corner + 1.0F)));
+        p.normals.push_back(n);
+      }
+      for (std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) p.indices.push_back(base + i);
+    }
+  }
+  return p;
+}
+
+void add(Scene& scene, const Primitive& primitive) {
+  Node node;
+  node.mesh = static_cast<int>(scene.meshes.size());
+  node.in_scene = true;
+  scene.meshes.push_back({"", {primitive}});
+  scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+  scene.order.push_back(static_cast<int>(scene.nodes.size()));
+  scene.nodes.push_back(node);
+}
+
+Material paint(glm::vec3 colour) {
+  Material material;
+  material.base_colour = glm::vec4(colour, 1.0F);
+  material.metallic = 0.0F;
+  return material;
+}
+
+/// Grey ground; a red box 10 m ahead (+x) that hides part of a green one at 20 m.
+Scene twoBoxes() {
+  Scene scene;
+  scene.materials = {paint(glm::vec3(0.2F)), paint({0.7F, 0.02F, 0.02F}), paint({0.02F, 0.7F, 0.02F})};
+  add(scene, box({-100, -1, -100}, {100, 0, 100}, 0));
+  add(scene, box({20, 0, -3}, {21, 3, 3}, 2));
+  add(scene, box({10, 0, -1}, {11, 2, 1}, 1));
+  return scene;
+}
+
+struct Drawn : testing::Test {
+  std::unique_ptr<Context> context = makeHeadlessContext();
+  Renderer renderer{*context};
+  Target target{*context, kSize};
+  Picture picture{*context, kSize};
+  Sky sky;
+
+  std::vector<std::uint8_t> draw(glm::dvec3 origin_m = glm::dvec3(0.0)) {
+    const glm::dvec3 eye = origin_m + glm::dvec3(0.0, 0.0, 1.5);
+    const View view{glm::lookAt(glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(1.0, 0.0, 1.4), glm::dvec3(0, 0, 1)) * glm::translate(glm::dmat4(1.0), -origin_m),
+                    reversedPerspective(1.0, kSize)};
+    renderer.beginFrame(sky, eye);
+    renderer.drawWorld(view, target);
+    renderer.toneMap(target, picture.framebuffer(), exposureFor(renderer.adaptingLuminance(eye)));
+    EXPECT_EQ(context->glErrors(), 0U);
+    return picture.read();
+  }
+  static glm::ivec3 at(const std::vector<std::uint8_t>& rgb, int x, int y) {
+    const auto i = static_cast<std::size_t>(3 * (y * kSize.x + x));
+    return {rgb[i], rgb[i + 1], rgb[i + 2]};
+  }
+};
+
+TEST_F(Drawn, nearHidesFar) {
+  renderer.addInstance(renderer.addScene(twoBoxes(), SceneFrame::Road));
+  sky.rain_mm_h = 5.0;
+  const auto rgb = draw();
+  const glm::ivec3 middle = at(rgb, 80, 48), beside = at(rgb, 99, 30);
+  EXPECT_GT(middle.x, 2 * middle.y);
+  EXPECT_GT(beside.y, 2 * beside.x);
+}
+
+TEST_F(Drawn, isTheSameAThousandKilometresAway) {
+  const InstanceId road = renderer.addInstance(renderer.addScene(twoBoxes(), SceneFrame::Road));
+  sky.rain_mm_h = 5.0;
+  const auto here = draw();
+  const glm::dvec3 far_m(1.024e6, -1.024e6, 0.0);
+  Placement far_away;
+  far_away.world_from_host = glm::translate(glm::dmat4(1.0), far_m);
+  renderer.place(road, far_away);
+  const auto there = draw(far_m);
+  int worst = 0;
+  for (std::size_t i = 0; i < here.size(); ++i) worst = std::max(worst, std::abs(int{here[i]} - int{there[i]}));
+  EXPECT_LE(worst, 1);  // the eye's own position is rounded to 0.1 nm there; one grey level of rounding
+}
+
+TEST_F(Drawn, theSunCastsShadowsAndRainHidesIt) {
+  Scene scene = twoBoxes();
+  add(scene, box({4, 6, -3}, {8, 6.5F, 3}, 0));  // a slab above the ground ahead
+  renderer.addInstance(renderer.addScene(scene, SceneFrame::Road));
+  sky.to_sun = {0.0F, 0.0F, 1.0F};
+  const auto sunny = draw();
+  const int lit = at(sunny, 20, 48).y, shaded = at(sunny, 80, 66).y;
+  EXPECT_GT(lit, shaded + 40);
+  sky.rain_mm_h = 5.0;
+  const auto rainy = draw();
+  EXPECT_LT(std::abs(at(rainy, 20, 48).y - at(rainy, 80, 66).y), 25);
+}
+
+TEST_F(Drawn, wetGroundIsDarkerWhereItDoesNotMirror) {
+  Scene scene;
+  scene.materials = {paint(glm::vec3(0.3F))};  // roughness 1: no film stands on it
+  add(scene, box({-100, -1, -100}, {100, 0, 100}, 0));
+  renderer.addInstance(renderer.addScene(scene, SceneFrame::Road));
+  sky.rain_mm_h = 5.0;
+  const int dry = at(draw(), 80, 85).y;
+  sky.wetness = 1.0;
+  const int wet = at(draw(), 80, 85).y;
+  EXPECT_LT(wet, dry - 10);  // Lekner & Dorf: 0.30 -> 0.19
+  EXPECT_GT(wet, dry / 2);
+}
+
+TEST_F(Drawn, aShelterIsDarkInside) {
+  Scene scene = twoBoxes();
+  for (const auto& [min, max] : {std::pair(glm::vec3(-20, 0, -5), glm::vec3(8, 6, -4.5F)), std::pair(glm::vec3(-20, 0, 4.5F), glm::vec3(8, 6, 5)),
+                                 std::pair(glm::vec3(-20, 5.5F, -5), glm::vec3(8, 6, 5))}) {
+    add(scene, box(min, max, 0));
+  }
+  add(scene, box({-20, 0.05F, -4.4F}, {8, 5.4F, 4.4F}, 0));
+  scene.nodes.back().meaning = ShelterMeaning{"tunnel"};
+  renderer.addInstance(renderer.addScene(scene, SceneFrame::Road));
+  sky.rain_mm_h = 5.0;
+  renderer.beginFrame(sky, glm::dvec3(0.0));
+  EXPECT_LT(renderer.skyVisibility({-10, 0, 1.5}), 0.3);
+  EXPECT_GT(renderer.skyVisibility({30, 0, 1.5}), 0.99);
+  EXPECT_LT(renderer.adaptingLuminance({-10, 0, 1.5}), 0.6 * renderer.adaptingLuminance({30, 0, 1.5}));
+  EXPECT_EQ(context->glErrors(), 0U);
+}
+
+TEST_F(Drawn, aPictureOfTheSurroundingsIsSeenWhereItLies) {
+  // Red ahead (+x, the middle column), blue elsewhere.
+  constexpr int width = 64, height = 32;
+  std::vector<float> rgb;
+  for (int i = 0; i < width * height; ++i) {
+    const bool ahead = std::abs(i % width - width / 2) < 12;
+    rgb.insert(rgb.end(), {ahead ? 1.0F : 0.0F, 0.0F, ahead ? 0.0F : 1.0F});
+  }
+  renderer.setEnvironment(rgb, width, height);
+  draw();
+  renderer.encodeSrgb(target, picture.framebuffer());
+  const glm::ivec3 middle = at(picture.read(), 80, 45);
+  EXPECT_GE(middle.x, 253);  // half floats and two filterings
+  EXPECT_LE(middle.z, 2);
+}
+
+TEST_F(Drawn, captureClearsWhatWasThere) {
+  renderer.addInstance(renderer.addScene(twoBoxes(), SceneFrame::Road));
+  sky.rain_mm_h = 5.0;
+  renderer.beginFrame(sky, glm::dvec3(0.0));
+  const glm::dmat4 ahead = glm::lookAt(glm::dvec3(0, 0, 1.5), glm::dvec3(1, 0, 1.5), glm::dvec3(0, 0, 1));
+  const glm::dmat4 up = glm::lookAt(glm::dvec3(0, 0, 1.5), glm::dvec3(0, 0, 2.5), glm::dvec3(1, 0, 0));
+  renderer.drawScene(target.framebuffer(), kSize, ahead, reversedPerspective(1.0, kSize));
+  renderer.drawScene(target.framebuffer(), kSize, up, reversedPerspective(1.0, kSize));
+  renderer.toneMap(target, picture.framebuffer(), 0.2);
+  const glm::ivec3 middle = at(picture.read(), 80, 45);
+  EXPECT_LT(std::abs(middle.x - middle.z), 40);  // grey sky, no box
+  EXPECT_GT(middle.y, 40);
+  EXPECT_EQ(context->glErrors(), 0U);
+}
+
+}  // namespace
+}  // namespace host
