@@ -30,15 +30,20 @@ void DrawList::add(const Instance& instance, unsigned parts) {
   }
   for (const GpuDraw& draw : instance.scene->draws) {
     if ((draw.part & parts) == 0) continue;
-    DrawItem item{.instance = &instance, .draw = &draw, .rel_from_body = rel_from_body[static_cast<std::size_t>(draw.body)]};
+    DrawItem item{.instance = &instance,
+                  .draw = &draw,
+                  .rel_from_body = rel_from_body[static_cast<std::size_t>(draw.body)]};
     item.middle = glm::vec3(item.rel_from_body * glm::vec4(draw.middle, 1.0F));
     const glm::mat3 m(item.rel_from_body);
     item.half = glm::abs(m[0]) * draw.half.x + glm::abs(m[1]) * draw.half.y + glm::abs(m[2]) * draw.half.z;
     item.distance_m = glm::length(glm::max(glm::abs(item.middle) - item.half, 0.0F));
     const bool outside = std::any_of(planes_.begin(), planes_.end(), [&](glm::vec4 plane) {
-      return glm::dot(glm::vec3(plane), item.middle) + plane.w + glm::dot(glm::abs(glm::vec3(plane)), item.half) < 0.0F;
+      return glm::dot(glm::vec3(plane), item.middle) + plane.w +
+                 glm::dot(glm::abs(glm::vec3(plane)), item.half) <
+             0.0F;
     });
-    if (outside || glm::length(item.half) < least_size_ * item.distance_m || item.distance_m > farthest_m_) continue;
+    if (outside || glm::length(item.half) < least_size_ * item.distance_m || item.distance_m > farthest_m_)
+      continue;
     item.rank = rankOf(item.material().features, item.distance_m);
     items_.push_back(item);
   }
@@ -48,7 +53,8 @@ void DrawList::sort() {
   std::stable_sort(items_.begin(), items_.end(), [&](const DrawItem& a, const DrawItem& b) {
     if (a.rank != b.rank) return a.rank < b.rank;
     if (a.rank == kBlended) return glm::length(a.middle) > glm::length(b.middle);
-    if (a.rank % kBands > 0 && a.draw->material != b.draw->material) return a.draw->material < b.draw->material;
+    if (a.rank % kBands > 0 && a.draw->material != b.draw->material)
+      return a.draw->material < b.draw->material;
     return a.distance_m < b.distance_m;
   });
 }

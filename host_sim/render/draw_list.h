@@ -16,17 +16,20 @@ struct DrawItem {
   glm::vec3 middle{0.0F}, half{0.0F};  ///< bounds, relative to the eye, world axes
   float distance_m = 0.0F;             ///< eye to bounds, 0 within
   int rank = 0;                        ///< solid near to far in bands, cut out alike, blended
-  const GpuMaterial& material() const { return instance->scene->materials[static_cast<std::size_t>(draw->material)]; }
+  const GpuMaterial& material() const {
+    return instance->scene->materials[static_cast<std::size_t>(draw->material)];
+  }
 };
 
 class DrawList {
  public:
   /// `least_size`: bounds that are smaller than that share of their distance are left out,
   /// and those beyond `farthest_m`.
-  DrawList(glm::dvec3 eye_m, const glm::mat4& clip_from_rel, float least_size = 0.0F, float farthest_m = 1e9F);
+  DrawList(glm::dvec3 eye_m, const glm::mat4& clip_from_rel, float least_size = 0.0F,
+           float farthest_m = 1e9F);
   void add(const Instance& instance, unsigned parts);
-  /// Solid parts from near to far, then cut-out ones, then blended ones from far to near. Far off, those that look alike stand together, so
-  /// that they can be drawn at once.
+  /// Solid parts from near to far, then cut-out ones, then blended ones from far to near. Far off, those that
+  /// look alike stand together, so that they can be drawn at once.
   void sort();
   const std::vector<DrawItem>& items() const { return items_; }
 

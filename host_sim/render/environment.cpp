@@ -23,24 +23,38 @@ GLuint makeCube(const GladGLContext& gl, int size, int levels) {
 /// As shaders/cube.glsl.
 glm::vec3 faceDirection(int face, float x, float y) {
   switch (face) {
-    case 0: return {1.0F, -y, -x};
-    case 1: return {-1.0F, -y, x};
-    case 2: return {x, 1.0F, y};
-    case 3: return {x, -1.0F, -y};
-    case 4: return {x, -y, 1.0F};
-    default: return {-x, -y, -1.0F};
+    case 0:
+      return {1.0F, -y, -x};
+    case 1:
+      return {-1.0F, -y, x};
+    case 2:
+      return {x, 1.0F, y};
+    case 3:
+      return {x, -1.0F, -y};
+    case 4:
+      return {x, -y, 1.0F};
+    default:
+      return {-x, -y, -1.0F};
   }
 }
 
 std::array<float, 9> basis(glm::vec3 d) {
-  return {0.282095F, 0.488603F * d.y, 0.488603F * d.z, 0.488603F * d.x, 1.092548F * d.x * d.y, 1.092548F * d.y * d.z,
-          0.315392F * (3.0F * d.z * d.z - 1.0F), 1.092548F * d.x * d.z, 0.546274F * (d.x * d.x - d.y * d.y)};
+  return {0.282095F,
+          0.488603F * d.y,
+          0.488603F * d.z,
+          0.488603F * d.x,
+          1.092548F * d.x * d.y,
+          1.092548F * d.y * d.z,
+          0.315392F * (3.0F * d.z * d.z - 1.0F),
+          1.092548F * d.x * d.z,
+          0.546274F * (d.x * d.x - d.y * d.y)};
 }
 
 /// Whether cubes drawn for `a` may stand for `b` but for their brightness.
 bool alike(const Sky& a, const Sky& b) {
   const double drift = std::abs(std::log(overcastZenith(a) / overcastZenith(b)));
-  return a.to_sun == b.to_sun && std::abs(cloudCover(a) - cloudCover(b)) < 0.02 && (drift < 0.7 || cloudCover(a) < 1.0);
+  return a.to_sun == b.to_sun && std::abs(cloudCover(a) - cloudCover(b)) < 0.02 &&
+         (drift < 0.7 || cloudCover(a) < 1.0);
 }
 
 }  // namespace
@@ -100,8 +114,9 @@ void Environment::draw(const Sky& sky) {
     const auto zenith = static_cast<float>(overcastZenith(sky));
     const glm::vec3 to_sun = glm::normalize(sky.to_sun);
     // Level ground under the sky: overcast 7/9 pi L, clear about 12 klx of sky, and the sun.
-    const glm::vec3 irradiance = glm::mix(glm::vec3(11.0F, 12.0F, 14.0F), glm::vec3(zenith * 7.0F / 9.0F * kPi), cover) +
-                                 sunIrradiance(sky) * std::max(to_sun.z, 0.0F);
+    const glm::vec3 irradiance =
+        glm::mix(glm::vec3(11.0F, 12.0F, 14.0F), glm::vec3(zenith * 7.0F / 9.0F * kPi), cover) +
+        sunIrradiance(sky) * std::max(to_sun.z, 0.0F);
     sky_program_.set("u_cover", cover);
     sky_program_.set("u_zenith", zenith);
     sky_program_.set("u_to_sun", to_sun);
@@ -140,7 +155,8 @@ void Environment::measure() {
   constexpr int size = kSkySize >> kMeasureLevel;
   std::vector<glm::vec4> texels(6 * size * size);
   gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  gl_.GetTextureImage(sky_, kMeasureLevel, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(texels.size() * sizeof(glm::vec4)), texels.data());
+  gl_.GetTextureImage(sky_, kMeasureLevel, GL_RGBA, GL_FLOAT,
+                      static_cast<GLsizei>(texels.size() * sizeof(glm::vec4)), texels.data());
   sh_.fill(glm::vec3(0.0F));
   upper_ = lower_ = horizon_ = glm::vec3(0.0F);
   float above = 0.0F, below = 0.0F, level = 0.0F;
@@ -162,9 +178,11 @@ void Environment::measure() {
 }
 
 std::array<glm::vec4, 9> Environment::irradiance() const {
-  // Cosine lobe per order over pi (1, 2/3, 1/4) times the basis' constants: Ramamoorthi & Hanrahan 2001, eqs. 8 and 13.
-  constexpr std::array<float, 9> factor = {0.282095F,         0.488603F * 2 / 3, 0.488603F * 2 / 3, 0.488603F * 2 / 3, 1.092548F / 4,
-                                           1.092548F / 4,     0.315392F / 4,     1.092548F / 4,     0.546274F / 4};
+  // Cosine lobe per order over pi (1, 2/3, 1/4) times the basis' constants: Ramamoorthi & Hanrahan 2001, eqs.
+  // 8 and 13.
+  constexpr std::array<float, 9> factor = {0.282095F,         0.488603F * 2 / 3, 0.488603F * 2 / 3,
+                                           0.488603F * 2 / 3, 1.092548F / 4,     1.092548F / 4,
+                                           0.315392F / 4,     1.092548F / 4,     0.546274F / 4};
   std::array<glm::vec4, 9> result{};
   for (std::size_t k = 0; k < 9; ++k) result[k] = glm::vec4(sh_[k] * factor[k] * brightness_, 0.0F);
   return result;

@@ -1,4 +1,5 @@
-// Light from all around: a cube map of the sky (computed, or a picture), what rough surfaces mirror of it, and its irradiance.
+// Light from all around: a cube map of the sky (computed, or a picture), what rough surfaces mirror of it,
+// and its irradiance.
 #pragma once
 
 #include <array>

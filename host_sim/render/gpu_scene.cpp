@@ -11,7 +11,7 @@
 namespace host {
 namespace {
 
-constexpr float kCell_m = 40.0F;          // culling and lamps go by these squares
+constexpr float kCell_m = 40.0F;             // culling and lamps go by these squares
 constexpr float kReachOfBlockers_m = 60.0F;  // what is further from a shelter does not shade it
 
 void wrap(const GladGLContext& gl, GLuint texture, const Sampler& sampler) {
@@ -26,7 +26,9 @@ float meanRoughness(const Scene& scene, const Material& material) {
   const Image& image = scene.images[static_cast<std::size_t>(material.metallic_roughness_map.image)];
   double sum = 0.0;
   for (std::size_t i = 1; i < image.rgba.size(); i += 4) sum += image.rgba[i];
-  return material.roughness * static_cast<float>(sum / 255.0 / static_cast<double>(std::max<std::size_t>(image.rgba.size() / 4, 1)));
+  return material.roughness *
+         static_cast<float>(sum / 255.0 /
+                            static_cast<double>(std::max<std::size_t>(image.rgba.size() / 4, 1)));
 }
 
 std::vector<glm::vec3> nearTriangles(const std::vector<glm::vec3>& corners, const glm::mat4& host_from_file,
@@ -39,7 +41,8 @@ std::vector<glm::vec3> nearTriangles(const std::vector<glm::vec3>& corners, cons
     const bool reaches = std::any_of(shelters.begin(), shelters.end(), [&](const ShelterView& shelter) {
       glm::vec3 low(1e30F), high(-1e30F);
       for (glm::vec3 p : shelter.points_m) low = glm::min(low, p), high = glm::max(high, p);
-      return glm::all(glm::lessThan(min, high + kReachOfBlockers_m)) && glm::all(glm::greaterThan(max, low - kReachOfBlockers_m));
+      return glm::all(glm::lessThan(min, high + kReachOfBlockers_m)) &&
+             glm::all(glm::greaterThan(max, low - kReachOfBlockers_m));
     });
     if (reaches) near.insert(near.end(), t, t + 3);
   }
@@ -49,7 +52,9 @@ std::vector<glm::vec3> nearTriangles(const std::vector<glm::vec3>& corners, cons
 }  // namespace
 
 GpuScene::GpuScene(const GladGLContext& gl, const Scene& scene, SceneFrame its_frame)
-    : frame(its_frame), host_from_file(its_frame == SceneFrame::Car ? vehicleFromGltf() : worldFromGltf()), gl_(gl) {
+    : frame(its_frame),
+      host_from_file(its_frame == SceneFrame::Car ? vehicleFromGltf() : worldFromGltf()),
+      gl_(gl) {
   tree.nodes = scene.nodes;
   tree.roots = scene.roots;
   tree.order = scene.order;
@@ -57,9 +62,11 @@ GpuScene::GpuScene(const GladGLContext& gl, const Scene& scene, SceneFrame its_f
   uploadMeshes(scene);
   for (int index : scene.order) {
     const Node& node = scene.nodes[static_cast<std::size_t>(index)];
-    if (node.light < 0 || scene.lights[static_cast<std::size_t>(node.light)].kind == LightKind::Directional) continue;
+    if (node.light < 0 || scene.lights[static_cast<std::size_t>(node.light)].kind == LightKind::Directional)
+      continue;
     const auto* meaning = std::get_if<LightMeaning>(&node.meaning);
-    lamps.push_back({index, meaning ? static_cast<int>(meaning->role) : -1, scene.lights[static_cast<std::size_t>(node.light)]});
+    lamps.push_back({index, meaning ? static_cast<int>(meaning->role) : -1,
+                     scene.lights[static_cast<std::size_t>(node.light)]});
   }
   measureShelters(scene);
 }
@@ -90,7 +97,8 @@ void GpuScene::uploadMaterials(const Scene& scene) {
     to.surface = {from.metallic, std::max(from.roughness, 0.02F), from.alpha_cutoff, from.normal_scale};
     to.glow = from.emissive;
     to.double_sided = from.double_sided;
-    // Rough ground (grass, gravel, bark: 0.9 and more) takes water in; asphalt, concrete and paint are covered by it.
+    // Rough ground (grass, gravel, bark: 0.9 and more) takes water in; asphalt, concrete and paint are
+    // covered by it.
     const float roughness = meanRoughness(scene, from);
     to.film = frame == SceneFrame::Road && !mask ? 1.0F - glm::smoothstep(0.87F, 0.94F, roughness) : 0.0F;
     if (roughness < 0.6F || from.metallic > 0.5F || (to.features & kBlend)) to.features |= kGlossy;
@@ -100,13 +108,15 @@ void GpuScene::uploadMaterials(const Scene& scene) {
 
 GLuint GpuScene::upload(const Scene& scene, const TextureUse& use, bool mask) {
   const Image& image = scene.images[static_cast<std::size_t>(use.image)];
-  const int levels = 1 + static_cast<int>(std::floor(std::log2(std::max({image.width_px, image.height_px, 1}))));
+  const int levels =
+      1 + static_cast<int>(std::floor(std::log2(std::max({image.width_px, image.height_px, 1}))));
   GLuint texture = 0;
   gl_.CreateTextures(GL_TEXTURE_2D, 1, &texture);
   gl_.TextureStorage2D(texture, levels, GL_RGBA8, image.width_px, image.height_px);
   gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl_.TextureSubImage2D(texture, 0, 0, 0, image.width_px, image.height_px, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  gl_.TextureSubImage2D(texture, 0, 0, 0, image.width_px, image.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
+                        image.rgba.data());
   gl_.GenerateTextureMipmap(texture);
   wrap(gl_, texture, use.sampler);
   if (mask) gl_.TextureParameteri(texture, GL_TEXTURE_MAX_LEVEL, std::max(levels - 4, 0));
@@ -118,8 +128,8 @@ void GpuScene::uploadMeshes(const Scene& scene) {
   const MergedScene merged = mergeScene(scene, frame == SceneFrame::Road ? kCell_m : 0.0F);
   bodies = merged.bodies;
   for (const MergedDraw& from : merged.draws) {
-    draws.push_back({from.first, from.count, from.body, from.material, from.part, from.role, 0.5F * (from.min_m + from.max_m),
-                     0.5F * (from.max_m - from.min_m)});
+    draws.push_back({from.first, from.count, from.body, from.material, from.part, from.role,
+                     0.5F * (from.min_m + from.max_m), 0.5F * (from.max_m - from.min_m)});
   }
   if (frame == SceneFrame::Car) {
     glm::vec3 min(1e30F), max(-1e30F);
@@ -132,14 +142,16 @@ void GpuScene::uploadMeshes(const Scene& scene) {
   }
   const auto make = [&](GLuint& buffer, const void* data, std::size_t bytes) {
     gl_.CreateBuffers(1, &buffer);
-    gl_.NamedBufferStorage(buffer, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 4)), bytes > 0 ? data : nullptr, 0);
+    gl_.NamedBufferStorage(buffer, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 4)),
+                           bytes > 0 ? data : nullptr, 0);
   };
   make(vertices_, merged.vertices.data(), merged.vertices.size() * sizeof(MergedVertex));
   make(indices_, merged.indices.data(), merged.indices.size() * sizeof(std::uint32_t));
   gl_.CreateVertexArrays(1, &vertex_array);
   gl_.VertexArrayVertexBuffer(vertex_array, 0, vertices_, 0, sizeof(MergedVertex));
   gl_.VertexArrayElementBuffer(vertex_array, indices_);
-  const auto attribute = [&](GLuint index, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+  const auto attribute = [&](GLuint index, GLint size, GLenum type, GLboolean normalised,
+                             std::size_t offset) {
     gl_.EnableVertexArrayAttrib(vertex_array, index);
     gl_.VertexArrayAttribFormat(vertex_array, index, size, type, normalised, static_cast<GLuint>(offset));
     gl_.VertexArrayAttribBinding(vertex_array, index, 0);
@@ -165,7 +177,8 @@ void GpuScene::measureShelters(const Scene& scene) {
     gl_.TextureStorage3D(made.texture, 1, GL_RGBA16F, n.x, n.y, n.z);
     gl_.TextureSubImage3D(made.texture, 0, 0, 0, 0, n.x, n.y, n.z, GL_RGBA, GL_FLOAT, made.grid.light.data());
     gl_.TextureParameteri(made.texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    for (const GLenum axis : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}, GLenum{GL_TEXTURE_WRAP_R}}) {
+    for (const GLenum axis :
+         {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}, GLenum{GL_TEXTURE_WRAP_R}}) {
       gl_.TextureParameteri(made.texture, axis, GL_CLAMP_TO_EDGE);
     }
     textures_.push_back(made.texture);

@@ -1,4 +1,5 @@
-// A scene on the GPU: static parts merged into few draws, each with its bounds, material and the body it moves with.
+// A scene on the GPU: static parts merged into few draws, each with its bounds, material and the body it
+// moves with.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -32,7 +33,8 @@ struct GpuMaterial {
   glm::vec4 base{1.0F};
   glm::vec4 surface{0.0F};  ///< metallic, roughness, cutoff, normal scale
   glm::vec3 glow{0.0F};
-  float film = 0.0F;  ///< how much of a glossy film of water it holds when level: grass and gravel none, asphalt whole
+  float film =
+      0.0F;  ///< how much of a glossy film of water it holds when level: grass and gravel none, asphalt whole
   unsigned features = 0;
   bool double_sided = false;
 };
@@ -67,14 +69,14 @@ class GpuScene {
 
   SceneFrame frame;
   glm::mat4 host_from_file{1.0F};
-  Scene tree;                ///< nodes only: to pose it
-  std::vector<int> bodies;   ///< node each body moves with, -1: none
+  Scene tree;               ///< nodes only: to pose it
+  std::vector<int> bodies;  ///< node each body moves with, -1: none
   std::vector<GpuMaterial> materials;
   std::vector<GpuDraw> draws;
   std::vector<GpuLamp> lamps;
   std::vector<GpuGrid> grids;  ///< in the host's frame of the scene
   GLuint vertex_array = 0;
-  glm::vec4 footprint{0.0F};   ///< of a car: half length, half width, middle along x (m), 1
+  glm::vec4 footprint{0.0F};  ///< of a car: half length, half width, middle along x (m), 1
 
  private:
   void uploadMaterials(const Scene& scene);

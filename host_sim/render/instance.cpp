@@ -6,8 +6,8 @@
 namespace host {
 namespace {
 
-/// Lamps in a road's file are those of a night; beside daylight a camera that shows both sees none of them. The picture lets them shine as
-/// the eye sees them, which adapts to each part of the view by itself.
+/// Lamps in a road's file are those of a night; beside daylight a camera that shows both sees none of them.
+/// The picture lets them shine as the eye sees them, which adapts to each part of the view by itself.
 constexpr float kStreetLampGain = 10.0F;
 constexpr float kCandelaPerUnit = 1000.0F;
 constexpr float kFaintest_klx = 0.004F;
@@ -22,25 +22,28 @@ float lampReach(const LampNow& lamp) {
 
 void Instance::place(const Placement& to) {
   placement = to;
-  const std::vector<glm::mat4> nodes = scene->tree.sceneFromNode(to.poses.empty() ? scene->tree.restPoses() : to.poses);
+  const std::vector<glm::mat4> nodes =
+      scene->tree.sceneFromNode(to.poses.empty() ? scene->tree.restPoses() : to.poses);
   const glm::dmat4 world_from_file = to.world_from_host * glm::dmat4(scene->host_from_file);
   world_from_body.clear();
   for (int node : scene->bodies) {
-    world_from_body.push_back(node < 0 ? world_from_file : world_from_file * glm::dmat4(nodes[static_cast<std::size_t>(node)]));
+    world_from_body.push_back(node < 0 ? world_from_file
+                                       : world_from_file * glm::dmat4(nodes[static_cast<std::size_t>(node)]));
   }
   lamps.clear();
   for (const GpuLamp& lamp : scene->lamps) {
     float level = lamp.role < 0 ? 1.0F : to.lamp_levels[static_cast<std::size_t>(lamp.role)];
     if (level <= 0.0F) continue;
     if (lamp.role == static_cast<int>(LightRole::Street)) level *= kStreetLampGain;
-    const glm::dmat4 world_from_lamp = world_from_file * glm::dmat4(nodes[static_cast<std::size_t>(lamp.node)]);
+    const glm::dmat4 world_from_lamp =
+        world_from_file * glm::dmat4(nodes[static_cast<std::size_t>(lamp.node)]);
     LampNow now;
     now.position_m = glm::dvec3(world_from_lamp[3]);
     now.direction = -glm::normalize(glm::vec3(world_from_lamp[2]));
     now.intensity = lamp.light.colour * (lamp.light.intensity * level / kCandelaPerUnit);
     if (lamp.role == static_cast<int>(LightRole::Head)) {
-      // A low beam is brightest just below the horizon and falls to a tenth 10 degrees off (UNECE R112, points 50R to 4L); a spot's flat
-      // middle would burn two discs into the road before the bumper.
+      // A low beam is brightest just below the horizon and falls to a tenth 10 degrees off (UNECE R112,
+      // points 50R to 4L); a spot's flat middle would burn two discs into the road before the bumper.
       now.cos_inner = 1.0F;
       now.cos_outer = std::cos(0.24F);
     } else if (lamp.light.kind == LightKind::Spot) {

@@ -13,7 +13,8 @@ struct Instance {
   Placement placement;
   std::vector<glm::dmat4> world_from_body;
   std::vector<LampNow> lamps;  ///< those that shine
-  float open = 1.0F;           ///< share of the sky's light that reaches it as a whole: 1 for roads, whose shelters count per pixel
+  float open = 1.0F;  ///< share of the sky's light that reaches it as a whole: 1 for roads, whose shelters
+                      ///< count per pixel
 
   void place(const Placement& to);
   glm::dmat4 worldFromHost() const { return placement.world_from_host; }

@@ -18,7 +18,8 @@ bool means(const Node& node) {
 std::vector<int> bodiesOf(const Scene& scene, std::vector<int>& bodies) {
   std::vector<bool> moves(scene.nodes.size(), false);
   for (const Animation& animation : scene.animations) {
-    for (const AnimationChannel& channel : animation.channels) moves[static_cast<std::size_t>(channel.node)] = true;
+    for (const AnimationChannel& channel : animation.channels)
+      moves[static_cast<std::size_t>(channel.node)] = true;
   }
   bodies = {-1};
   std::vector<int> body(scene.nodes.size(), 0);
@@ -43,13 +44,18 @@ std::pair<unsigned, int> partAndRole(const Scene& scene, int index) {
     const Node& node = scene.nodes[static_cast<std::size_t>(i)];
     if (means<WiperMeaning>(node)) part = kWipers;
     if (means<PaneMeaning>(node)) part = kPanes;
-    if (const auto* light = std::get_if<LightMeaning>(&node.meaning); light && role < 0) role = static_cast<int>(light->role);
+    if (const auto* light = std::get_if<LightMeaning>(&node.meaning); light && role < 0)
+      role = static_cast<int>(light->role);
   }
   return {part, role};
 }
 
-std::int16_t toShort(float v) { return static_cast<std::int16_t>(std::lround(glm::clamp(v, -1.0F, 1.0F) * 32767.0F)); }
-std::int8_t toByte(float v) { return static_cast<std::int8_t>(std::lround(glm::clamp(v, -1.0F, 1.0F) * 127.0F)); }
+std::int16_t toShort(float v) {
+  return static_cast<std::int16_t>(std::lround(glm::clamp(v, -1.0F, 1.0F) * 32767.0F));
+}
+std::int8_t toByte(float v) {
+  return static_cast<std::int8_t>(std::lround(glm::clamp(v, -1.0F, 1.0F) * 127.0F));
+}
 
 glm::vec2 transformed(const TextureUse& use, glm::vec2 uv) {
   const float c = std::cos(use.rotation_rad), s = std::sin(use.rotation_rad);
@@ -59,13 +65,15 @@ glm::vec2 transformed(const TextureUse& use, glm::vec2 uv) {
 
 /// All maps of a material share one set of coordinates here: the base colour's, or whichever map there is.
 const TextureUse& leadingMap(const Material& material) {
-  for (const TextureUse* use : {&material.base_colour_map, &material.emissive_map, &material.normal_map, &material.metallic_roughness_map}) {
+  for (const TextureUse* use : {&material.base_colour_map, &material.emissive_map, &material.normal_map,
+                                &material.metallic_roughness_map}) {
     if (*use) return *use;
   }
   return material.base_colour_map;
 }
 
-MergedVertex vertex(const Primitive& primitive, std::size_t i, const glm::mat4& matrix, const glm::mat3& normals, const TextureUse& map) {
+MergedVertex vertex(const Primitive& primitive, std::size_t i, const glm::mat4& matrix,
+                    const glm::mat3& normals, const TextureUse& map) {
   MergedVertex v{};
   v.position_m = glm::vec3(matrix * glm::vec4(primitive.positions_m[i], 1.0F));
   const glm::vec3 n = normals * primitive.normals[i];
@@ -95,8 +103,8 @@ struct Group {
   std::vector<std::uint32_t> indices;
 };
 
-void addPrimitive(const Primitive& primitive, const Material& material, const glm::mat4& matrix, Key key, float cell_m,
-                  std::map<Key, Group>& groups) {
+void addPrimitive(const Primitive& primitive, const Material& material, const glm::mat4& matrix, Key key,
+                  float cell_m, std::map<Key, Group>& groups) {
   const glm::mat3 normals = glm::transpose(glm::inverse(glm::mat3(matrix)));
   const bool mirrored = glm::determinant(glm::mat3(matrix)) < 0.0F;
   std::map<Key, std::vector<std::size_t>> triangles;
@@ -138,12 +146,14 @@ MergedScene mergeScene(const Scene& scene, float cell_m) {
     if (node.mesh < 0 || means<ShelterMeaning>(node)) continue;
     const int its_body = body[static_cast<std::size_t>(index)];
     const int mover = merged.bodies[static_cast<std::size_t>(its_body)];
-    const glm::mat4 body_from_scene = mover < 0 ? glm::mat4(1.0F) : glm::inverse(scene.nodes[static_cast<std::size_t>(mover)].scene_from_node);
+    const glm::mat4 body_from_scene =
+        mover < 0 ? glm::mat4(1.0F)
+                  : glm::inverse(scene.nodes[static_cast<std::size_t>(mover)].scene_from_node);
     const auto [part, role] = partAndRole(scene, index);
     for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
       const Key key{part, its_body, primitive.material, role, 0, 0};
-      addPrimitive(primitive, scene.materials[static_cast<std::size_t>(primitive.material)], body_from_scene * node.scene_from_node, key,
-                   mover < 0 ? cell_m : 0.0F, groups);
+      addPrimitive(primitive, scene.materials[static_cast<std::size_t>(primitive.material)],
+                   body_from_scene * node.scene_from_node, key, mover < 0 ? cell_m : 0.0F, groups);
     }
   }
   for (const auto& [key, group] : groups) {
@@ -169,7 +179,8 @@ std::vector<glm::vec3> opaqueTriangles(const Scene& scene) {
     const Node& node = scene.nodes[static_cast<std::size_t>(index)];
     if (node.mesh < 0 || means<ShelterMeaning, PaneMeaning>(node)) continue;
     for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-      if (scene.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::Opaque) continue;
+      if (scene.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::Opaque)
+        continue;
       for (std::uint32_t i : primitive.indices) {
         corners.push_back(glm::vec3(node.scene_from_node * glm::vec4(primitive.positions_m[i], 1.0F)));
       }

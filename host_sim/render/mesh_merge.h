@@ -33,10 +33,12 @@ struct MergedScene {
   std::vector<MergedDraw> draws;
 };
 
-/// `cell_m`: edge of the squares (in the file's x and z) that still parts are cut into, 0: not cut. Shelters are left out.
+/// `cell_m`: edge of the squares (in the file's x and z) that still parts are cut into, 0: not cut. Shelters
+/// are left out.
 MergedScene mergeScene(const Scene& scene, float cell_m);
 
-/// All triangles that block light, three corners each, in the file's axes at rest: no panes, shelters, blended or masked materials.
+/// All triangles that block light, three corners each, in the file's axes at rest: no panes, shelters,
+/// blended or masked materials.
 std::vector<glm::vec3> opaqueTriangles(const Scene& scene);
 
 }  // namespace host

@@ -11,27 +11,29 @@ constexpr float kDepthFirst_m = 40.0F;  // beyond, parts are small and hide litt
 constexpr std::size_t kGridsPerDraw = 2;
 
 constexpr std::array<std::pair<unsigned, const char*>, 11> kNames = {{{kBaseMap, "BASE_MAP"},
-                                                                     {kRoughnessMap, "ROUGHNESS_MAP"},
-                                                                     {kNormalMap, "NORMAL_MAP"},
-                                                                     {kGlowMap, "GLOW_MAP"},
-                                                                     {kMask, "MASK"},
-                                                                     {kBlend, "BLEND"},
-                                                                     {kGlossy, "GLOSSY"},
-                                                                     {kShelter, "SHELTER"},
-                                                                     {kSun, "SUN"},
+                                                                      {kRoughnessMap, "ROUGHNESS_MAP"},
+                                                                      {kNormalMap, "NORMAL_MAP"},
+                                                                      {kGlowMap, "GLOW_MAP"},
+                                                                      {kMask, "MASK"},
+                                                                      {kBlend, "BLEND"},
+                                                                      {kGlossy, "GLOSSY"},
+                                                                      {kShelter, "SHELTER"},
+                                                                      {kSun, "SUN"},
                                                                       {kMirror, "MIRROR"},
                                                                       {kCarAbove, "CAR_ABOVE"}}};
 
 bool overlaps(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) {
   const glm::vec3 middle(placed.box_from_world * glm::dvec4(glm::dvec3(item.middle) + eye_m, 1.0));
   const glm::mat3 m{glm::dmat3(placed.box_from_world)};
-  const glm::vec3 half = glm::abs(m[0]) * item.half.x + glm::abs(m[1]) * item.half.y + glm::abs(m[2]) * item.half.z;
+  const glm::vec3 half =
+      glm::abs(m[0]) * item.half.x + glm::abs(m[1]) * item.half.y + glm::abs(m[2]) * item.half.z;
   return glm::all(glm::lessThan(glm::abs(middle - 0.5F), half + 0.5F));
 }
 
 }  // namespace
 
-Painter::Painter(const GladGLContext& gl) : gl_(gl), depth_(gl, {"frame.glsl", "depth.vert"}, {"depth.frag"}) {
+Painter::Painter(const GladGLContext& gl)
+    : gl_(gl), depth_(gl, {"frame.glsl", "depth.vert"}, {"depth.frag"}) {
   gl.CreateBuffers(1, &frame_buffer_);
   gl.NamedBufferStorage(frame_buffer_, sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
@@ -45,14 +47,15 @@ const Program& Painter::program(unsigned features) {
     for (const auto& [feature, name] : kNames) {
       if (features & feature) defines.emplace_back(name);
     }
-    found = std::make_unique<Program>(gl_, std::initializer_list<const char*>{"frame.glsl", "scene.vert"},
-                                      std::initializer_list<const char*>{"frame.glsl", "scene.frag"}, defines);
+    found =
+        std::make_unique<Program>(gl_, std::initializer_list<const char*>{"frame.glsl", "scene.vert"},
+                                  std::initializer_list<const char*>{"frame.glsl", "scene.frag"}, defines);
   }
   return *found;
 }
 
-void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps, std::span<const PlacedGrid> grids,
-                       const FrameTextures& textures) {
+void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps,
+                       std::span<const PlacedGrid> grids, const FrameTextures& textures) {
   frame_ = frame;
   eye_m_ = eye_m;
   grids_ = grids;
@@ -62,7 +65,9 @@ void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<cons
     const LampAt at{glm::vec3(lamp.position_m - eye_m), lampReach(lamp)};
     frame_.lamp_place[i] = glm::vec4(at.place, 1.0F / (at.reach_m * at.reach_m));
     frame_.lamp_aim[i] = glm::vec4(lamp.direction, lamp.cos_outer);
-    frame_.lamp_intensity[i] = glm::vec4(lamp.intensity, lamp.cos_outer <= -1.0F ? 1e6F : 1.0F / std::max(lamp.cos_inner - lamp.cos_outer, 1e-3F));
+    frame_.lamp_intensity[i] =
+        glm::vec4(lamp.intensity,
+                  lamp.cos_outer <= -1.0F ? 1e6F : 1.0F / std::max(lamp.cos_inner - lamp.cos_outer, 1e-3F));
     lamps_.push_back(at);
   }
   gl_.NamedBufferSubData(frame_buffer_, 0, sizeof(FrameBlock), &frame_);
@@ -75,13 +80,17 @@ void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<cons
 bool Painter::underCar(const DrawItem& item) const {
   if (frame_.car.w <= 0.0F) return false;
   const glm::vec3 at(frame_.car_from_rel * glm::vec4(item.middle, 1.0F));
-  return glm::length(glm::max(glm::abs(item.middle - glm::vec3(glm::inverse(frame_.car_from_rel)[3])) - item.half, 0.0F)) < 6.0F && at.z < 60.0F;
+  return glm::length(glm::max(
+             glm::abs(item.middle - glm::vec3(glm::inverse(frame_.car_from_rel)[3])) - item.half, 0.0F)) <
+             6.0F &&
+         at.z < 60.0F;
 }
 
 unsigned Painter::featuresOf(const DrawItem& item, bool sheltered) const {
   unsigned features = item.material().features;
   const bool road = item.instance->scene->frame == SceneFrame::Road;
-  if (frame_.air.x * item.material().film > 0.0F) features |= kGlossy | (frame_.screen.z > 0.0F ? kMirror : 0U);
+  if (frame_.air.x * item.material().film > 0.0F)
+    features |= kGlossy | (frame_.screen.z > 0.0F ? kMirror : 0U);
   if (road && underCar(item)) features |= kCarAbove;
   if (sheltered) features |= kShelter;
   if (frame_.to_sun.w > 0.0F) features |= kSun;
@@ -92,7 +101,8 @@ Painter::Grids Painter::gridsOf(const DrawItem& item) const {
   Grids found;
   for (const PlacedGrid& placed : grids_) {
     // A car's cabin is its own; a road's tunnel darkens the car as a whole (Instance::open).
-    if (placed.owner == item.instance && found.size() < kGridsPerDraw && overlaps(placed, item, eye_m_)) found.push_back(&placed);
+    if (placed.owner == item.instance && found.size() < kGridsPerDraw && overlaps(placed, item, eye_m_))
+      found.push_back(&placed);
   }
   return found;
 }
@@ -126,7 +136,8 @@ void Painter::setLamps(const Program& program, const Lamps& lamps) const {
   std::array<GLint, kLampsPerDraw> chosen{};
   std::copy(lamps.begin(), lamps.end(), chosen.begin());
   program.set("u_lamp_count", static_cast<int>(lamps.size()));
-  if (!lamps.empty()) gl_.ProgramUniform4iv(program.name(), program.location("u_lamps"), kLampsPerDraw / 4, chosen.data());
+  if (!lamps.empty())
+    gl_.ProgramUniform4iv(program.name(), program.location("u_lamps"), kLampsPerDraw / 4, chosen.data());
 }
 
 void Painter::setGrids(const Program& program, const Grids& grids) const {
@@ -142,20 +153,22 @@ void Painter::setGrids(const Program& program, const Grids& grids) const {
     gl_.BindTextureUnit(6 + static_cast<GLuint>(i), grids[i]->grid->texture);
   }
   const auto count = static_cast<GLsizei>(grids.size());
-  gl_.ProgramUniformMatrix4fv(program.name(), program.location("u_grid_from_rel"), count, GL_FALSE, &grid_from_rel[0][0][0]);
+  gl_.ProgramUniformMatrix4fv(program.name(), program.location("u_grid_from_rel"), count, GL_FALSE,
+                              &grid_from_rel[0][0][0]);
   gl_.ProgramUniform4fv(program.name(), program.location("u_grid"), count, &shape[0][0]);
   gl_.ProgramUniform1fv(program.name(), program.location("u_dry"), count, dry.data());
   program.set("u_grid_count", count);
 }
 
-/// How many of the first items can be drawn by one call: the same body and material, without lamps and shelters of their own.
+/// How many of the first items can be drawn by one call: the same body and material, without lamps and
+/// shelters of their own.
 std::size_t Painter::alike(std::span<const DrawItem> items) const {
   const DrawItem& first = items.front();
   std::size_t count = 1;
   while (count < items.size()) {
     const DrawItem& next = items[count];
-    const bool same = next.instance == first.instance && next.draw->body == first.draw->body && next.draw->material == first.draw->material &&
-                      next.draw->role == first.draw->role;
+    const bool same = next.instance == first.instance && next.draw->body == first.draw->body &&
+                      next.draw->material == first.draw->material && next.draw->role == first.draw->role;
     if (!same || !gridsOf(next).empty() || !lampsOf(next).empty()) break;
     ++count;
   }
@@ -178,7 +191,8 @@ void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& la
   gl_.BindVertexArray(item.instance->scene->vertex_array);
 }
 
-/// Solid parts' depth first: a surface that something hides is then not lit in vain, which on a software renderer is most of the time.
+/// Solid parts' depth first: a surface that something hides is then not lit in vain, which on a software
+/// renderer is most of the time.
 void Painter::paintDepth(const DrawList& list) {
   depth_.use();
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -216,10 +230,12 @@ Painted Painter::paint(const DrawList& list) {
     firsts.clear();
     for (const DrawItem& item : items.first(together)) {
       counts.push_back(static_cast<GLsizei>(item.draw->count));
-      firsts.push_back(reinterpret_cast<const void*>(std::uintptr_t{item.draw->first} * sizeof(std::uint32_t)));
+      firsts.push_back(
+          reinterpret_cast<const void*>(std::uintptr_t{item.draw->first} * sizeof(std::uint32_t)));
       painted.triangles += item.draw->count / 3;
     }
-    gl_.MultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, firsts.data(), static_cast<GLsizei>(together));
+    gl_.MultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, firsts.data(),
+                          static_cast<GLsizei>(together));
     ++painted.draws;
     items = items.subspan(together);
   }

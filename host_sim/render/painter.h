@@ -22,7 +22,7 @@ struct PlacedGrid {
 
 /// Textures that all draws of a frame share.
 struct FrameTextures {
-  GLuint mirrored = 0;        ///< the environment as rough surfaces mirror it, cube
+  GLuint mirrored = 0;  ///< the environment as rough surfaces mirror it, cube
   GLuint shadow = 0;
   GLuint mirror_picture = 0;  ///< what stands on wet ground, seen from below, with mips; 0: none
 };
@@ -39,8 +39,8 @@ class Painter {
   Painter& operator=(const Painter&) = delete;
 
   /// Takes what is common to the draws to come.
-  void setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps, std::span<const PlacedGrid> grids, 
-                const FrameTextures& textures);
+  void setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps,
+                std::span<const PlacedGrid> grids, const FrameTextures& textures);
   Painted paint(const DrawList& list);
 
  private:

@@ -37,8 +37,8 @@ GLuint compile(const GladGLContext& gl, GLenum stage, const std::string& text, c
 
 }  // namespace
 
-Program::Program(const GladGLContext& gl, std::initializer_list<const char*> vertex, std::initializer_list<const char*> fragment,
-                 const std::vector<std::string>& defines)
+Program::Program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
+                 std::initializer_list<const char*> fragment, const std::vector<std::string>& defines)
     : gl_(gl) {
   const char* name = *(fragment.end() - 1);
   const GLuint first = compile(gl, GL_VERTEX_SHADER, joined(vertex, defines), name);
@@ -77,11 +77,21 @@ GLint Program::location(const char* name) const {
   return found == locations_.end() ? -1 : found->second;
 }
 
-void Program::set(const char* name, float value) const { gl_.ProgramUniform1f(program_, location(name), value); }
-void Program::set(const char* name, int value) const { gl_.ProgramUniform1i(program_, location(name), value); }
-void Program::set(const char* name, glm::vec2 value) const { gl_.ProgramUniform2fv(program_, location(name), 1, &value[0]); }
-void Program::set(const char* name, glm::vec3 value) const { gl_.ProgramUniform3fv(program_, location(name), 1, &value[0]); }
-void Program::set(const char* name, glm::vec4 value) const { gl_.ProgramUniform4fv(program_, location(name), 1, &value[0]); }
+void Program::set(const char* name, float value) const {
+  gl_.ProgramUniform1f(program_, location(name), value);
+}
+void Program::set(const char* name, int value) const {
+  gl_.ProgramUniform1i(program_, location(name), value);
+}
+void Program::set(const char* name, glm::vec2 value) const {
+  gl_.ProgramUniform2fv(program_, location(name), 1, &value[0]);
+}
+void Program::set(const char* name, glm::vec3 value) const {
+  gl_.ProgramUniform3fv(program_, location(name), 1, &value[0]);
+}
+void Program::set(const char* name, glm::vec4 value) const {
+  gl_.ProgramUniform4fv(program_, location(name), 1, &value[0]);
+}
 void Program::set(const char* name, const glm::mat4& value) const {
   gl_.ProgramUniformMatrix4fv(program_, location(name), 1, GL_FALSE, &value[0][0]);
 }

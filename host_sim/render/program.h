@@ -14,10 +14,10 @@ namespace host {
 /// A linked program with its uniforms by name. Setting one that the driver removed does nothing.
 class Program {
  public:
-  /// `vertex` and `fragment` are files' names, each a list that is joined; `defines` are names. Throws std::runtime_error with the driver's
-  /// words.
-  Program(const GladGLContext& gl, std::initializer_list<const char*> vertex, std::initializer_list<const char*> fragment,
-          const std::vector<std::string>& defines = {});
+  /// `vertex` and `fragment` are files' names, each a list that is joined; `defines` are names. Throws
+  /// std::runtime_error with the driver's words.
+  Program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
+          std::initializer_list<const char*> fragment, const std::vector<std::string>& defines = {});
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

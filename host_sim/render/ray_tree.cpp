@@ -59,7 +59,9 @@ std::uint32_t RayTree::build(std::uint32_t first, std::uint32_t count, std::vect
   if (count > kLeaf) {
     const glm::vec3 size = box.max - box.min;
     const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-    const auto middle = [&](std::uint32_t t) { return corners[3 * t][axis] + corners[3 * t + 1][axis] + corners[3 * t + 2][axis]; };
+    const auto middle = [&](std::uint32_t t) {
+      return corners[3 * t][axis] + corners[3 * t + 1][axis] + corners[3 * t + 2][axis];
+    };
     const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
     const auto half = static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(begin, begin + half, begin + static_cast<std::ptrdiff_t>(count),

@@ -15,19 +15,24 @@
 namespace host {
 namespace {
 
-/// A glowing surface of emissive factor 1, 1000 cd/m^2: a lit window or lamp cover that is seen to glow by day.
+/// A glowing surface of emissive factor 1, 1000 cd/m^2: a lit window or lamp cover that is seen to glow by
+/// day.
 constexpr float kGlow = 6.0F;
-/// From below the ground nothing hides what is far, so all of it would be drawn; and far ground has left the plane.
+/// From below the ground nothing hides what is far, so all of it would be drawn; and far ground has left the
+/// plane.
 constexpr float kMirrorReach_m = 120.0F;
 /// Share of the light outside that lamps and walls keep up in the darkest shelter.
 constexpr double kBounceInShelter = 0.02;
-/// What is seen from a shelter is more than the mean over all directions: its mouth lies ahead, at the height of the eyes. Chosen by eye.
+/// What is seen from a shelter is more than the mean over all directions: its mouth lies ahead, at the height
+/// of the eyes. Chosen by eye.
 constexpr double kPartOfAdaptation = 0.7;
 
 glm::dvec3 eyeOf(const glm::dmat4& eye_from_world) { return glm::dvec3(glm::inverse(eye_from_world)[3]); }
 
 /// Clip from directions in world axes.
-glm::mat4 turnedOnly(const View& view) { return glm::mat4(view.projection * glm::dmat4(glm::dmat3(view.eye_from_world))); }
+glm::mat4 turnedOnly(const View& view) {
+  return glm::mat4(view.projection * glm::dmat4(glm::dmat3(view.eye_from_world)));
+}
 
 }  // namespace
 
@@ -35,7 +40,11 @@ struct Renderer::Self {
   using What = std::vector<std::pair<const Instance*, unsigned>>;
 
   explicit Self(const Context& context)
-      : gl(context.gl()), environment(gl), shadow(gl), painter(gl), background(gl, {"full.vert"}, {"frame.glsl", "background.frag"}),
+      : gl(context.gl()),
+        environment(gl),
+        shadow(gl),
+        painter(gl),
+        background(gl, {"full.vert"}, {"frame.glsl", "background.frag"}),
         tone(gl, {"full.vert"}, {"tone.frag"}) {
     gl.CreateVertexArrays(1, &no_vertices);
   }
@@ -66,7 +75,8 @@ struct Renderer::Self {
   void findCar(glm::dvec3 eye_m);
   bool paintMirror(const View& view, glm::ivec2 size_px, const What& what);
   void begin(GLuint framebuffer, glm::ivec2 size_px);
-  Painted paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size, bool mirror = false);
+  Painted paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size,
+                    bool mirror = false);
   void paintSky(const glm::mat4& clip_from_rel);
   void writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve);
   glm::vec4 lightAt(glm::dvec3 point_m, float& share) const;
@@ -90,14 +100,16 @@ void Renderer::Self::placeGrids() {
   grids.clear();
   for (const Instance& instance : instances) {
     for (const GpuGrid& grid : instance.scene->grids) {
-      grids.push_back({&grid, glm::dmat4(grid.grid.box_from_scene) * glm::inverse(instance.worldFromHost()), &instance});
+      grids.push_back(
+          {&grid, glm::dmat4(grid.grid.box_from_scene) * glm::inverse(instance.worldFromHost()), &instance});
     }
   }
 }
 
 void Renderer::Self::gatherLamps(glm::dvec3 eye_m) {
   lamps.clear();
-  for (const Instance& instance : instances) lamps.insert(lamps.end(), instance.lamps.begin(), instance.lamps.end());
+  for (const Instance& instance : instances)
+    lamps.insert(lamps.end(), instance.lamps.begin(), instance.lamps.end());
   std::stable_sort(lamps.begin(), lamps.end(), [&](const LampNow& a, const LampNow& b) {
     return glm::distance(a.position_m, eye_m) < glm::distance(b.position_m, eye_m);
   });
@@ -148,24 +160,28 @@ void Renderer::Self::begin(GLuint framebuffer, glm::ivec2 size_px) {
   gl.FrontFace(GL_CCW);
 }
 
-Painted Renderer::Self::paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size, bool mirror) {
+Painted Renderer::Self::paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size,
+                                  bool mirror) {
   const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
   FrameBlock frame = frameFor(view, size_px, eye_m);
   frame.screen.z = mirror ? 1.0F : 0.0F;
   DrawList list(eye_m, frame.clip_from_rel, least_size);
   for (const auto& [instance, parts] : what) list.add(*instance, parts);
   list.sort();
-  painter.setFrame(frame, eye_m, lamps, grids, {environment.mirrored(), shadow.texture(), mirror ? mirror_picture->texture() : 0});
+  painter.setFrame(frame, eye_m, lamps, grids,
+                   {environment.mirrored(), shadow.texture(), mirror ? mirror_picture->texture() : 0});
   return painter.paint(list);
 }
 
-/// The world above the wet ground as its mirror shows it, at a quarter of the size. False where no ground is known or it is dry. Nothing is
-/// clipped at the ground: from below, its own faces are turned away, and feet that reach into it look as long as they are. (Clip distances
-/// make Mesa 22's llvmpipe slow and lose triangles.)
+/// The world above the wet ground as its mirror shows it, at a quarter of the size. False where no ground is
+/// known or it is dry. Nothing is clipped at the ground: from below, its own faces are turned away, and feet
+/// that reach into it look as long as they are. (Clip distances make Mesa 22's llvmpipe slow and lose
+/// triangles.)
 bool Renderer::Self::paintMirror(const View& view, glm::ivec2 size_px, const What& what) {
   if (nearest_car == nullptr || sky.wetness <= 0.0) return false;
   const glm::ivec2 small = glm::max(size_px / 4, glm::ivec2(16));
-  if (!mirror_picture || mirror_picture->sizePx() != small) mirror_picture = std::make_unique<MirrorPicture>(gl, small);
+  if (!mirror_picture || mirror_picture->sizePx() != small)
+    mirror_picture = std::make_unique<MirrorPicture>(gl, small);
   const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
   FrameBlock frame = frameFor(view, small, eye_m);
   const glm::vec3 n(frame.plane);
@@ -250,9 +266,13 @@ InstanceId Renderer::addInstance(SceneId scene) {
   return static_cast<InstanceId>(self_->instances.size() - 1);
 }
 
-void Renderer::place(InstanceId instance, Placement placement) { self_->instances.at(instance).place(placement); }
+void Renderer::place(InstanceId instance, Placement placement) {
+  self_->instances.at(instance).place(placement);
+}
 
-void Renderer::setEnvironment(std::span<const float> rgb, int width, int height) { self_->environment.setPicture(rgb, width, height); }
+void Renderer::setEnvironment(std::span<const float> rgb, int width, int height) {
+  self_->environment.setPicture(rgb, width, height);
+}
 
 void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
   Self& self = *self_;
@@ -268,7 +288,8 @@ void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
   self.findCar(eye_m);
   for (Instance& instance : self.instances) {
     if (self.isRoad(instance)) continue;
-    instance.open = static_cast<float>(skyVisibility(glm::dvec3(instance.worldFromHost() * glm::dvec4(1.3, 0.0, 1.0, 1.0))));
+    instance.open = static_cast<float>(
+        skyVisibility(glm::dvec3(instance.worldFromHost() * glm::dvec4(1.3, 0.0, 1.0, 1.0))));
   }
   if (self.environment.isPicture() || cloudCover(sky) >= 1.0) return;
   self.timed("shadow", [&] {
@@ -304,10 +325,13 @@ void Renderer::drawWorld(const View& view, const Target& target, std::span<const
 void Renderer::drawParts(const View& view, const Target& target, InstanceId instance, unsigned parts) {
   Self& self = *self_;
   self.begin(target.framebuffer(), target.sizePx());
-  self.timed(parts & kBody ? "cabin" : "wipers", [&] { return self.paintFrom(view, target.sizePx(), {{&self.instances.at(instance), parts}}, 0.0F); });
+  self.timed(parts & kBody ? "cabin" : "wipers", [&] {
+    return self.paintFrom(view, target.sizePx(), {{&self.instances.at(instance), parts}}, 0.0F);
+  });
 }
 
-void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world, const glm::dmat4& projection) {
+void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world,
+                         const glm::dmat4& projection) {
   Self& self = *self_;
   self.begin(framebuffer, size_px);
   const float far = 0.0F;
@@ -331,7 +355,9 @@ void Renderer::toneMap(const Target& target, std::uint32_t framebuffer, double e
   });
 }
 
-void Renderer::encodeSrgb(const Target& target, std::uint32_t framebuffer) { self_->writePicture(target, framebuffer, 1.0, false); }
+void Renderer::encodeSrgb(const Target& target, std::uint32_t framebuffer) {
+  self_->writePicture(target, framebuffer, 1.0, false);
+}
 
 double Renderer::skyVisibility(glm::dvec3 point_m) const {
   float share = 0.0F;
@@ -356,7 +382,8 @@ LightSummary Renderer::lighting() const {
 double Renderer::adaptingLuminance(glm::dvec3 eye_m) const {
   const glm::vec3 around = 0.5F * (self_->environment.skyRadiance() + self_->environment.groundRadiance());
   const double open = glm::dot(glm::dvec3(around), glm::dvec3(0.2126, 0.7152, 0.0722));
-  return open * std::pow(kBounceInShelter + (1.0 - kBounceInShelter) * skyVisibility(eye_m), kPartOfAdaptation);
+  return open *
+         std::pow(kBounceInShelter + (1.0 - kBounceInShelter) * skyVisibility(eye_m), kPartOfAdaptation);
 }
 
 void Renderer::setTiming(bool on) { self_->timing = on; }

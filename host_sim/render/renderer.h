@@ -9,8 +9,9 @@
 //   renderer.drawParts(view, target, car, kBody)   the cabin around the eye
 //   renderer.toneMap(target, framebuffer, exposure)
 //
-// Frames: world z up, metres, double; everything that reaches the GPU is relative to the eye. Depth: reversed, zero to one (1 at the near plane).
-// Light: radiance in units of 1000 cd/m^2 (an overcast zenith is about 5), so that half floats hold lamps and tunnels alike.
+// Frames: world z up, metres, double; everything that reaches the GPU is relative to the eye. Depth:
+// reversed, zero to one (1 at the near plane). Light: radiance in units of 1000 cd/m^2 (an overcast zenith is
+// about 5), so that half floats hold lamps and tunnels alike.
 #pragma once
 
 #include <array>
@@ -28,7 +29,8 @@
 
 namespace host {
 
-/// An eye and what it projects to. `projection` is clipFromEye with reversed depth in zero to one; see reversedPerspective().
+/// An eye and what it projects to. `projection` is clipFromEye with reversed depth in zero to one; see
+/// reversedPerspective().
 struct View {
   glm::dmat4 eye_from_world{1.0};
   glm::dmat4 projection{1.0};
@@ -45,10 +47,11 @@ enum class SceneFrame { Road, Car };
 
 /// Where an instance is and how it is posed.
 struct Placement {
-  /// World from the host's frame of the scene: the vehicle frame of a car (x forward, z up), the world frame of a road.
+  /// World from the host's frame of the scene: the vehicle frame of a car (x forward, z up), the world frame
+  /// of a road.
   glm::dmat4 world_from_host{1.0};
-  /// Poses of all nodes (Scene::restPoses(), changed), or empty: at rest. Only nodes that can move follow it: wipers, wheels, steering
-  /// wheels, animated nodes, and what hangs below them.
+  /// Poses of all nodes (Scene::restPoses(), changed), or empty: at rest. Only nodes that can move follow it:
+  /// wipers, wheels, steering wheels, animated nodes, and what hangs below them.
   std::vector<Pose> poses;
   /// How bright lamps shine and glowing meshes glow, by LightRole; 1 = as in the file, 0 = off.
   std::array<float, 6> lamp_levels{0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F};
@@ -95,17 +98,18 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Uploads a scene, its static parts merged. Also finds out how much sky is seen inside its shelter volumes (rays against its own
-  /// triangles), so that tunnels are dark and canopies give shade. `scene` is not kept.
+  /// Uploads a scene, its static parts merged. Also finds out how much sky is seen inside its shelter volumes
+  /// (rays against its own triangles), so that tunnels are dark and canopies give shade. `scene` is not kept.
   SceneId addScene(const Scene& scene, SceneFrame frame);
   InstanceId addInstance(SceneId scene);
   void place(InstanceId instance, Placement placement);
 
-  /// A picture of all around at infinity, instead of the computed sky: `rgb` is latitude-longitude, row 0 up, linear, in this file's
-  /// unit; the world's +x is in its middle column, +y left of it.
+  /// A picture of all around at infinity, instead of the computed sky: `rgb` is latitude-longitude, row 0 up,
+  /// linear, in this file's unit; the world's +x is in its middle column, +y left of it.
   void setEnvironment(std::span<const float> rgb, int width, int height);
 
-  /// The weather's light for the views to come, around `eye_m`. Renews sky, shadow and lamps where they changed.
+  /// The weather's light for the views to come, around `eye_m`. Renews sky, shadow and lamps where they
+  /// changed.
   void beginFrame(const Sky& sky, glm::dvec3 eye_m);
 
   /// Clears, draws the sky, all roads, and the cars in `whole`.
@@ -113,8 +117,10 @@ class Renderer {
   /// Draws parts (Parts, or'ed) of an instance into what is there.
   void drawParts(const View& view, const Target& target, InstanceId instance, unsigned parts);
   /// World as the glass sees it, for rg_capture_fn: sky and roads, coarser. Clears the framebuffer.
-  void drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world, const glm::dmat4& projection);
-  /// Writes the target's colour, times `exposure`, through a filmic curve as sRGB into `framebuffer` (0: the window), its size the target's.
+  void drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world,
+                 const glm::dmat4& projection);
+  /// Writes the target's colour, times `exposure`, through a filmic curve as sRGB into `framebuffer` (0: the
+  /// window), its size the target's.
   void toneMap(const Target& target, std::uint32_t framebuffer, double exposure);
   /// As toneMap without the curve: exposure 1, sRGB encoding only.
   void encodeSrgb(const Target& target, std::uint32_t framebuffer);
@@ -133,8 +139,8 @@ class Renderer {
   std::unique_ptr<Self> self_;
 };
 
-/// Exposure that makes a picture of this mean luminance (1000 cd/m^2) middling bright. The caller averages log luminance over the last
-/// seconds of simulated time, so that the eye adapts alike at every frame rate.
+/// Exposure that makes a picture of this mean luminance (1000 cd/m^2) middling bright. The caller averages
+/// log luminance over the last seconds of simulated time, so that the eye adapts alike at every frame rate.
 double exposureFor(double luminance);
 
 }  // namespace host

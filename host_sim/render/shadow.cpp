@@ -12,7 +12,9 @@ constexpr double kHalfDepth_m = 250.0;
 }  // namespace
 
 Shadow::Shadow(const GladGLContext& gl)
-    : gl_(gl), solid_(gl, {"shadow.vert"}, {"shadow.frag"}), cut_out_(gl, {"shadow.vert"}, {"shadow.frag"}, {"MASK"}) {
+    : gl_(gl),
+      solid_(gl, {"shadow.vert"}, {"shadow.frag"}),
+      cut_out_(gl, {"shadow.vert"}, {"shadow.frag"}, {"MASK"}) {
   gl.CreateTextures(GL_TEXTURE_2D, 1, &texture_);
   gl.TextureStorage2D(texture_, 1, GL_DEPTH_COMPONENT32F, kSize, kSize);
   gl.TextureParameteri(texture_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -33,11 +35,14 @@ Shadow::~Shadow() {
 
 void Shadow::draw(std::span<const Instance* const> instances, glm::vec3 to_sun, glm::dvec3 eye_m) {
   const glm::dvec3 z = glm::normalize(glm::dvec3(to_sun));
-  const glm::dvec3 x = glm::normalize(glm::cross(std::abs(z.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), z));
+  const glm::dvec3 x =
+      glm::normalize(glm::cross(std::abs(z.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), z));
   const glm::dvec3 y = glm::cross(z, x);
   constexpr double texel_m = 2.0 * kHalfWidth_m / kSize;
-  const glm::dvec3 middle{std::floor(glm::dot(x, eye_m) / texel_m) * texel_m, std::floor(glm::dot(y, eye_m) / texel_m) * texel_m, glm::dot(z, eye_m)};
-  const glm::dmat4 sun_from_world = glm::transpose(glm::dmat4(glm::dvec4(x, -middle.x), glm::dvec4(y, -middle.y), glm::dvec4(z, -middle.z), glm::dvec4(0, 0, 0, 1)));
+  const glm::dvec3 middle{std::floor(glm::dot(x, eye_m) / texel_m) * texel_m,
+                          std::floor(glm::dot(y, eye_m) / texel_m) * texel_m, glm::dot(z, eye_m)};
+  const glm::dmat4 sun_from_world = glm::transpose(glm::dmat4(
+      glm::dvec4(x, -middle.x), glm::dvec4(y, -middle.y), glm::dvec4(z, -middle.z), glm::dvec4(0, 0, 0, 1)));
   // Near the sun 0, far 1: ordinary depth in zero to one.
   glm::dmat4 map_from_sun(1.0);
   map_from_sun[0][0] = map_from_sun[1][1] = 1.0 / kHalfWidth_m;
@@ -61,7 +66,8 @@ void Shadow::draw(std::span<const Instance* const> instances, glm::vec3 to_sun, 
     for (const GpuDraw& draw : instance->scene->draws) {
       const GpuMaterial& material = instance->scene->materials[static_cast<std::size_t>(draw.material)];
       if (draw.part == kPanes || (material.features & kBlend)) continue;
-      const glm::mat4 map_from_body(map_from_world_ * instance->world_from_body[static_cast<std::size_t>(draw.body)]);
+      const glm::mat4 map_from_body(map_from_world_ *
+                                    instance->world_from_body[static_cast<std::size_t>(draw.body)]);
       const glm::vec3 at(map_from_body * glm::vec4(draw.middle, 1.0F));
       const float reach = static_cast<float>(1.0 / kHalfWidth_m) * glm::length(draw.half);
       if (std::abs(at.x) > 1.0F + reach || std::abs(at.y) > 1.0F + reach) continue;

@@ -15,7 +15,8 @@ class Shadow {
   Shadow(const Shadow&) = delete;
   Shadow& operator=(const Shadow&) = delete;
 
-  /// Draws the map anew. The map's texels stay where they are in the world as the eye moves, so that edges do not crawl.
+  /// Draws the map anew. The map's texels stay where they are in the world as the eye moves, so that edges do
+  /// not crawl.
   void draw(std::span<const Instance* const> instances, glm::vec3 to_sun, glm::dvec3 eye_m);
   GLuint texture() const { return texture_; }
   /// 0..1 of the map from positions relative to `eye_m`.

@@ -17,7 +17,8 @@ glm::vec3 sunIrradiance(const Sky& sky) {
 }
 
 double overcastZenith(const Sky& sky) {
-  // Chosen by eye, for want of a law: 12 klx on level ground in a drizzle, 4 klx in a downpour. E = 7/9 pi L (Moon & Spencer 1942).
+  // Chosen by eye, for want of a law: 12 klx on level ground in a drizzle, 4 klx in a downpour. E = 7/9 pi L
+  // (Moon & Spencer 1942).
   const double illuminance_klx = 15.0 * std::pow(std::max(sky.rain_mm_h, 0.0) + 1.0, -0.33);
   return illuminance_klx * 9.0 / (7.0 * 3.14159265358979);
 }

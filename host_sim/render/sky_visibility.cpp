@@ -54,7 +54,8 @@ glm::vec3 direction(int i) {
   return {s * std::cos(angle), s * std::sin(angle), z};
 }
 
-/// What a surface sends on: albedo 0.12 of what falls on open ground under an overcast sky (7/9 of its zenith); little inside.
+/// What a surface sends on: albedo 0.12 of what falls on open ground under an overcast sky (7/9 of its
+/// zenith); little inside.
 constexpr float kLitOutside = 0.12F * 7.0F / 9.0F;
 constexpr float kLitInside = 0.006F;
 
@@ -102,7 +103,8 @@ SkyGrid measureSky(const RayTree& tree, std::span<const glm::vec3> points_m, flo
 
   SkyGrid grid;
   grid.border = border / box.size;
-  grid.cells = glm::clamp(glm::ivec3(glm::ceil(box.size / step_m)), glm::ivec3(2, 2, 3), glm::ivec3(kMaxCells, 24, 8));
+  grid.cells =
+      glm::clamp(glm::ivec3(glm::ceil(box.size / step_m)), glm::ivec3(2, 2, 3), glm::ivec3(kMaxCells, 24, 8));
   const glm::vec3 cell = box.size / glm::vec3(grid.cells);
   grid.probe_step_m = 0.35F * std::min({cell.x, cell.y, cell.z});
   const glm::mat4 scene_from_box(glm::vec4(box.x * box.size.x, 0.0F), glm::vec4(box.y * box.size.y, 0.0F),
@@ -110,7 +112,8 @@ SkyGrid measureSky(const RayTree& tree, std::span<const glm::vec3> points_m, flo
   grid.box_from_scene = glm::inverse(scene_from_box);
   for (int i = 0; i < grid.cells.x * grid.cells.y * grid.cells.z; ++i) {
     const glm::vec3 at(i % grid.cells.x, i / grid.cells.x % grid.cells.y, i / (grid.cells.x * grid.cells.y));
-    grid.light.push_back(lightAt(tree, glm::vec3(scene_from_box * glm::vec4((at + 0.5F) / glm::vec3(grid.cells), 1.0F)), shelter));
+    grid.light.push_back(lightAt(
+        tree, glm::vec3(scene_from_box * glm::vec4((at + 0.5F) / glm::vec3(grid.cells), 1.0F)), shelter));
   }
   return grid;
 }

@@ -72,7 +72,8 @@ std::vector<std::uint8_t> Picture::read() const {
   std::vector<std::uint8_t> bottom_first(row * rows), top_first(row * rows);
   gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_.GetTextureImage(colour_, 0, GL_RGB, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bottom_first.size()), bottom_first.data());
+  gl_.GetTextureImage(colour_, 0, GL_RGB, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bottom_first.size()),
+                      bottom_first.data());
   for (std::size_t y = 0; y < rows; ++y) {
     std::copy_n(bottom_first.data() + y * row, row, top_first.data() + (rows - 1 - y) * row);
   }

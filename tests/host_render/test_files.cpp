@@ -47,7 +47,8 @@ TEST_F(Files, pngComesBackAsItWasWritten) {
 TEST_F(Files, pngThatCannotBeWrittenNamesTheFileAndLeavesNothing) {
   const fs::path file = folder / "none" / "a.png";
   EXPECT_NE(failureOf([&] { writePng(file, ramp(4, 4), 4, 4); }).find(file.string()), std::string::npos);
-  EXPECT_NE(failureOf([&] { writePng(folder / "b.png", ramp(4, 4), 5, 4); }).find("b.png"), std::string::npos);
+  EXPECT_NE(failureOf([&] { writePng(folder / "b.png", ramp(4, 4), 5, 4); }).find("b.png"),
+            std::string::npos);
   EXPECT_TRUE(fs::is_empty(folder));
 }
 
@@ -83,7 +84,9 @@ TEST_F(Files, failingFfmpegIsToldAndDoesNotKillTheHost) {
   EXPECT_NE(why.find("No such file"), std::string::npos);
 }
 
-TEST_F(Files, oddSizesAreRefused) { EXPECT_NE(failureOf([&] { Video(folder / "a.mp4", 63, 48, 30.0); }).find("even"), std::string::npos); }
+TEST_F(Files, oddSizesAreRefused) {
+  EXPECT_NE(failureOf([&] { Video(folder / "a.mp4", 63, 48, 30.0); }).find("even"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace host

@@ -29,7 +29,8 @@ Corners tunnel() {
 
 std::vector<glm::vec3> boxPoints(glm::vec3 min, glm::vec3 max) {
   std::vector<glm::vec3> points;
-  for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
+  for (int i = 0; i < 8; ++i)
+    points.emplace_back(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
   return points;
 }
 
@@ -39,7 +40,8 @@ TEST(RayTree, agreesWithTryingEveryTriangle) {
   Corners corners;
   for (int i = 0; i < 400; ++i) {
     const glm::vec3 a(at(random), at(random), at(random));
-    for (glm::vec3 d : {glm::vec3(0.0F), glm::vec3(step(random), step(random), step(random)), glm::vec3(step(random), step(random), step(random))}) {
+    for (glm::vec3 d : {glm::vec3(0.0F), glm::vec3(step(random), step(random), step(random)),
+                        glm::vec3(step(random), step(random), step(random))}) {
       corners.push_back(a + d);
     }
   }
@@ -49,7 +51,8 @@ TEST(RayTree, agreesWithTryingEveryTriangle) {
     const glm::vec3 from(at(random), at(random), at(random));
     const glm::vec3 to = glm::normalize(glm::vec3(step(random), step(random), step(random)));
     float nearest = 30.0F;
-    for (std::size_t i = 0; i < corners.size(); i += 3) nearest = RayTree({corners[i], corners[i + 1], corners[i + 2]}).nearest(from, to, nearest);
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+      nearest = RayTree({corners[i], corners[i + 1], corners[i + 2]}).nearest(from, to, nearest);
     EXPECT_FLOAT_EQ(tree.nearest(from, to, 30.0F), nearest);
     hits += nearest < 30.0F;
   }
@@ -61,7 +64,8 @@ TEST(SkyGrid, isTheOpenSkyAboveLevelGround) {
   addQuad(ground, {-200, -200, 0}, {400, 0, 0}, {0, 400, 0});
   const SkyGrid grid = measureSky(RayTree(ground), boxPoints({-5, -3, 3}, {5, 3, 8}), 3.0F, 1.0F);
   const glm::vec4 light = grid.at({0, 0, 5});
-  // The CIE overcast sky's mean and gradient over the upper half; the ground below sends up 0.12 * 7/9 / 2 of the zenith.
+  // The CIE overcast sky's mean and gradient over the upper half; the ground below sends up 0.12 * 7/9 / 2 of
+  // the zenith.
   EXPECT_NEAR(light.x, kOpenSky.x + 0.047F, 0.03F);
   EXPECT_NEAR(light.w, kOpenSky.w - 0.07F, 0.04F);
   EXPECT_NEAR(light.y, 0.0F, 0.02F);
@@ -83,7 +87,8 @@ TEST(SkyGrid, followsAShelterThatLiesAskew) {
   for (glm::vec3& p : points) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
   const SkyGrid grid = measureSky(RayTree({}), points, 3.0F, 1.0F);
   EXPECT_FLOAT_EQ(grid.share({30 * c, 30 * s, 2}), 1.0F);
-  EXPECT_FLOAT_EQ(grid.share({30 * c + 8 * s, 30 * s - 8 * c, 2}), 0.0F);  // 8 m to its side: an upright box along the axes would hold it
+  EXPECT_FLOAT_EQ(grid.share({30 * c + 8 * s, 30 * s - 8 * c, 2}),
+                  0.0F);  // 8 m to its side: an upright box along the axes would hold it
 }
 
 TEST(Sky, extinctionIsKoschmiedersAndWebers) {

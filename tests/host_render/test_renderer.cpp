@@ -68,7 +68,8 @@ struct Drawn : testing::Test {
 
   std::vector<std::uint8_t> draw(glm::dvec3 origin_m = glm::dvec3(0.0)) {
     const glm::dvec3 eye = origin_m + glm::dvec3(0.0, 0.0, 1.5);
-    const View view{glm::lookAt(glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(1.0, 0.0, 1.4), glm::dvec3(0, 0, 1)) * glm::translate(glm::dmat4(1.0), -origin_m),
+    const View view{glm::lookAt(glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(1.0, 0.0, 1.4), glm::dvec3(0, 0, 1)) *
+                        glm::translate(glm::dmat4(1.0), -origin_m),
                     reversedPerspective(1.0, kSize)};
     renderer.beginFrame(sky, eye);
     renderer.drawWorld(view, target);
@@ -101,7 +102,8 @@ TEST_F(Drawn, isTheSameAThousandKilometresAway) {
   renderer.place(road, far_away);
   const auto there = draw(far_m);
   int worst = 0;
-  for (std::size_t i = 0; i < here.size(); ++i) worst = std::max(worst, std::abs(int{here[i]} - int{there[i]}));
+  for (std::size_t i = 0; i < here.size(); ++i)
+    worst = std::max(worst, std::abs(int{here[i]} - int{there[i]}));
   EXPECT_LE(worst, 1);  // the eye's own position is rounded to 0.1 nm there; one grey level of rounding
 }
 
@@ -133,7 +135,8 @@ TEST_F(Drawn, wetGroundIsDarkerWhereItDoesNotMirror) {
 
 TEST_F(Drawn, aShelterIsDarkInside) {
   Scene scene = twoBoxes();
-  for (const auto& [min, max] : {std::pair(glm::vec3(-20, 0, -5), glm::vec3(8, 6, -4.5F)), std::pair(glm::vec3(-20, 0, 4.5F), glm::vec3(8, 6, 5)),
+  for (const auto& [min, max] : {std::pair(glm::vec3(-20, 0, -5), glm::vec3(8, 6, -4.5F)),
+                                 std::pair(glm::vec3(-20, 0, 4.5F), glm::vec3(8, 6, 5)),
                                  std::pair(glm::vec3(-20, 5.5F, -5), glm::vec3(8, 6, 5))}) {
     add(scene, box(min, max, 0));
   }
