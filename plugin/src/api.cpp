@@ -19,9 +19,11 @@ namespace rg {
 namespace {
 
 constexpr uint32_t kMostLamps = 4096, kMostPlacedDrops = 1000000, kMostVertices = 1000000;
+constexpr double kAcross = 0.01;        // cosine of a right angle, within half a degree
 constexpr double kMaxDouble = 1.7e308;  // any finite number
 
-// Plain bytes: a thread-local with a destructor would keep the library from being unloaded while its thread lives.
+// Plain bytes: a thread-local with a destructor would keep the library from being unloaded while its thread
+// lives.
 thread_local char create_error[256];
 
 // Numbers of log messages: the negated result code for refused calls, from 100 on for remarks.
@@ -33,8 +35,10 @@ void say(const rg_instance& instance, rg_log_level level, uint32_t message, cons
 
 rg_result failed(rg_instance* instance, rg_result code, const char* text) {
   try {
-    if (instance != nullptr) instance->frame.last_error = text;
-    else std::snprintf(create_error, sizeof create_error, "%s", text);
+    if (instance != nullptr)
+      instance->frame.last_error.set(text);
+    else
+      std::snprintf(create_error, sizeof create_error, "%s", text);
     if (instance != nullptr) say(*instance, RG_LOG_ERROR, static_cast<uint32_t>(-code), text);
   } catch (...) {
     return RG_ERROR_OUT_OF_MEMORY;
@@ -44,10 +48,14 @@ rg_result failed(rg_instance* instance, rg_result code, const char* text) {
 
 rg_result codeOf(gl::Error::Kind kind) {
   switch (kind) {
-    case gl::Error::Kind::kVersion: return RG_ERROR_GL_VERSION;
-    case gl::Error::Kind::kDriver: return RG_ERROR_GL;
-    case gl::Error::Kind::kOutOfMemory: return RG_ERROR_OUT_OF_MEMORY;
-    case gl::Error::Kind::kWrongOrder: return RG_ERROR_WRONG_ORDER;
+    case gl::Error::Kind::kVersion:
+      return RG_ERROR_GL_VERSION;
+    case gl::Error::Kind::kDriver:
+      return RG_ERROR_GL;
+    case gl::Error::Kind::kOutOfMemory:
+      return RG_ERROR_OUT_OF_MEMORY;
+    case gl::Error::Kind::kWrongOrder:
+      return RG_ERROR_WRONG_ORDER;
   }
   return RG_ERROR_INTERNAL;
 }
@@ -88,11 +96,13 @@ T* checkOut(T* out, const char* name) {
   return out;
 }
 
-// An out struct says its size, so that a host compiled against an older header gets no more than it has room for.
+// An out struct says its size, so that a host compiled against an older header gets no more than it has room
+// for.
 template <typename T>
 void writeStruct(T* out, T value, const char* name) {
   checkOut(out, name);
-  if (out->struct_size < sizeof(T) || out->struct_size > kLargestStruct) refuse(std::string(name) + ".struct_size is wrong", RG_ERROR_BAD_STRUCT);
+  if (out->struct_size < sizeof(T) || out->struct_size > kLargestStruct)
+    refuse(std::string(name) + ".struct_size is wrong", RG_ERROR_BAD_STRUCT);
   value.struct_size = out->struct_size;
   std::memcpy(out, &value, sizeof(T));
 }
@@ -128,12 +138,16 @@ rg_result create(const rg_create_info* in, rg_instance** out) {
     return failed(nullptr, RG_ERROR_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception& e) {
     return failed(nullptr, RG_ERROR_INTERNAL, e.what());
+  } catch (...) {
+    return failed(nullptr, RG_ERROR_INTERNAL, "unknown failure");
   }
 }
 
 void destroy(rg_instance* instance) { delete instance; }
 
-const char* lastError(rg_instance* instance) { return instance != nullptr ? instance->frame.last_error.c_str() : create_error; }
+const char* lastError(rg_instance* instance) {
+  return instance != nullptr ? instance->frame.last_error.get() : create_error;
+}
 
 // ---- GL ----
 
@@ -164,14 +178,18 @@ rg_result setVolume(rg_instance* instance, uint32_t id, const rg_volume_info* in
     volume.vehicle = info.vehicle;
     volume.name = readName(info.name, "rg_volume_info.name");
     volume.active = info.active != 0;
-    if ((info.vertices_m == nullptr) == (info.planes == nullptr)) refuse("volume \"" + volume.name + "\": give vertices or planes, not both or none");
+    if ((info.vertices_m == nullptr) == (info.planes == nullptr))
+      refuse("volume \"" + volume.name + "\": give vertices or planes, not both or none");
     std::vector<glm::dvec3> vertices;
     std::vector<rain::Plane> planes;
     if (info.vertices_m != nullptr) {
-      checkArray(info.vertices_m, info.vertex_count, 3 * sizeof(double), 3 * sizeof(double), rain::Convex::kMaxVertices, "rg_volume_info.vertices_m");
-      for (uint32_t i = 0; i < info.vertex_count; ++i) vertices.emplace_back(info.vertices_m[3 * i], info.vertices_m[3 * i + 1], info.vertices_m[3 * i + 2]);
+      checkArray(info.vertices_m, info.vertex_count, 3 * sizeof(double), 3 * sizeof(double),
+                 rain::Convex::kMaxVertices, "rg_volume_info.vertices_m");
+      for (uint32_t i = 0; i < info.vertex_count; ++i)
+        vertices.emplace_back(info.vertices_m[3 * i], info.vertices_m[3 * i + 1], info.vertices_m[3 * i + 2]);
     } else {
-      checkArray(info.planes, info.plane_count, 4 * sizeof(double), 4 * sizeof(double), rain::Convex::kMaxPlanes, "rg_volume_info.planes");
+      checkArray(info.planes, info.plane_count, 4 * sizeof(double), 4 * sizeof(double),
+                 rain::Convex::kMaxPlanes, "rg_volume_info.planes");
       for (uint32_t i = 0; i < info.plane_count; ++i) {
         const double* p = info.planes + 4 * i;
         planes.push_back({{p[0], p[1], p[2]}, p[3]});
@@ -202,7 +220,8 @@ std::vector<Vector> readFloats(const float* data, uint32_t count, size_t stride,
   for (uint32_t i = 0; i < count; ++i) {
     std::memcpy(&out[i], element(data, step, i), sizeof(Vector));
     for (glm::length_t k = 0; k < Vector::length(); ++k) {
-      if (!std::isfinite(out[i][k])) refuse(std::string(name) + "[" + std::to_string(i) + "] is not a number");
+      if (!std::isfinite(out[i][k]))
+        refuse(std::string(name) + "[" + std::to_string(i) + "] is not a number");
     }
   }
   return out;
@@ -215,17 +234,23 @@ rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
     checkId(info.vehicle, "rg_pane_info.vehicle");
     glass::PaneInfo pane;
     pane.name = readName(info.name, "rg_pane_info.name");
-    if (info.vertex_count == 0 || info.index_count == 0) refuse("pane \"" + pane.name + "\" has no triangles");
-    const auto positions = readFloats<glm::vec3>(info.positions_m, info.vertex_count, info.position_stride, "rg_pane_info.positions_m");
+    if (info.vertex_count == 0 || info.index_count == 0)
+      refuse("pane \"" + pane.name + "\" has no triangles");
+    const auto positions = readFloats<glm::vec3>(info.positions_m, info.vertex_count, info.position_stride,
+                                                 "rg_pane_info.positions_m");
     const auto uvs = readFloats<glm::vec2>(info.uvs, info.vertex_count, info.uv_stride, "rg_pane_info.uvs");
-    checkArray(info.indices, info.index_count, sizeof(uint32_t), sizeof(uint32_t), 6 * uint64_t{kMostVertices}, "rg_pane_info.indices");
+    checkArray(info.indices, info.index_count, sizeof(uint32_t), sizeof(uint32_t),
+               6 * uint64_t{kMostVertices}, "rg_pane_info.indices");
     if (info.index_count % 3 != 0) refuse("pane \"" + pane.name + "\": index_count is no multiple of 3");
-    if (info.glass < RG_GLASS_UNCOATED || info.glass > RG_GLASS_NEW_COATING) refuse("rg_pane_info.glass is no rg_glass");
+    if (info.glass < RG_GLASS_UNCOATED || info.glass > RG_GLASS_NEW_COATING)
+      refuse("rg_pane_info.glass is no rg_glass");
     checkRange(info.advancing_deg, 0.0, 175.0, "rg_pane_info.advancing_deg");
     checkRange(info.receding_deg, 0.0, 175.0, "rg_pane_info.receding_deg");
     checkRange(info.texel_m, 0.5e-3, 20e-3, "rg_pane_info.texel_m");
     checkRange(info.max_drops, 0.0, 1e6, "rg_pane_info.max_drops");
-    if (info.opening_m != 0.0) refuse("rg_pane_info.opening_m: this build has no sliding windows", RG_ERROR_MISSING_FEATURE);
+    checkRange(info.opening_m, 0.0, 10.0, "rg_pane_info.opening_m");
+    if (info.opening_m != 0.0)
+      refuse("rg_pane_info.opening_m: this build has no sliding windows", RG_ERROR_MISSING_FEATURE);
     pane.positions_m = positions;
     pane.uvs = uvs;
     pane.indices = {info.indices, info.index_count};
@@ -251,7 +276,9 @@ rg_result setWiper(rg_instance* instance, uint32_t id, const rg_wiper_info* in) 
     wiper.pivot_m = finiteVector(info.pivot_m, "rg_wiper_info.pivot_m");
     wiper.axis = unitVector(info.axis, "rg_wiper_info.axis");
     wiper.rest_direction = unitVector(info.rest_direction, "rg_wiper_info.rest_direction");
-    checkRange(info.arm_m, 0.0, 5.0, "rg_wiper_info.arm_m");
+    if (std::abs(glm::dot(wiper.axis, wiper.rest_direction)) > kAcross)
+      refuse("rg_wiper_info.rest_direction is not across axis");
+    checkRange(info.arm_m, 0.01, 5.0, "rg_wiper_info.arm_m");
     checkRange(info.blade_m, 0.01, 5.0, "rg_wiper_info.blade_m");
     checkRange(info.blade_angle_rad, -3.2, 3.2, "rg_wiper_info.blade_angle_rad");
     checkRange(info.residual_film_m, 0.0, 1e-4, "rg_wiper_info.residual_film_m");
@@ -286,6 +313,7 @@ rg_result placeDrops(rg_instance* instance, uint32_t pane, const rg_glass_drop* 
 
 rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, uint32_t count, size_t stride) {
   return guarded(instance, [&](Frame& frame) {
+    checkTime(time_ns, "update's time_ns");
     checkArray(in, count, stride, sizeof(rg_sample), 1000000, "samples");
     std::vector<Sample> samples;
     samples.reserve(count);
@@ -295,7 +323,9 @@ rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, ui
       before = &samples.back();
     }
     const rg_result result = frame.update(time_ns, samples);
-    if (result == RG_REMARK_TIME_DROPPED) say(*instance, RG_LOG_WARNING, kLogTimeDropped, "a stall was longer than time.catch_up_s: simulated time was left out");
+    if (result == RG_REMARK_TIME_DROPPED)
+      say(*instance, RG_LOG_WARNING, kLogTimeDropped,
+          "a stall was longer than time.catch_up_s: simulated time was left out");
     return result;
   });
 }
@@ -311,7 +341,8 @@ rg_result prepareCaptures(rg_instance* instance, const rg_capture_info* in) {
     checkRange(info.max_faces, 0.0, 6.0, "rg_capture_info.max_faces");
     glass::DrawScene draw;
     if (info.draw_scene != nullptr) {
-      draw = [&info](uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld, const glm::dmat4& clipFromEye) {
+      draw = [&info](uint32_t framebuffer, int size_px, const glm::dmat4& eyeFromWorld,
+                     const glm::dmat4& clipFromEye) {
         double eye[16], projection[16];
         std::memcpy(eye, &eyeFromWorld[0][0], sizeof eye);
         std::memcpy(projection, &clipFromEye[0][0], sizeof projection);
@@ -358,12 +389,17 @@ void readLighting(const rg_lighting* in, DrawRequest& out) {
 
 void readTarget(const rg_target* in, DrawRequest& out) {
   const rg_target t = readStruct(in, "rg_target");
-  if (t.width_px < 1 || t.height_px < 1 || t.width_px > 32768 || t.height_px > 32768) refuse("rg_target size must be 1 .. 32768 pixels a side");
-  if (t.samples != 1) refuse("rg_target.samples: this build draws into single-sampled targets", RG_ERROR_MISSING_FEATURE);
+  if (t.width_px < 1 || t.height_px < 1 || t.width_px > 32768 || t.height_px > 32768)
+    refuse("rg_target size must be 1 .. 32768 pixels a side");
+  if (t.samples < 1) refuse("rg_target.samples is " + std::to_string(t.samples) + ", must be 1");
+  if (t.samples != 1)
+    refuse("rg_target.samples: this build draws into single-sampled targets", RG_ERROR_MISSING_FEATURE);
   if (t.layer != 0) refuse("rg_target.layer: this build draws into layer 0", RG_ERROR_MISSING_FEATURE);
-  if (t.color_space != RG_LINEAR_HDR && t.color_space != RG_SRGB) refuse("rg_target.color_space is no rg_color_space");
+  if (t.color_space != RG_LINEAR_HDR && t.color_space != RG_SRGB)
+    refuse("rg_target.color_space is no rg_color_space");
   checkRange(t.exposure, 1e-9, 1e9, "rg_target.exposure");
-  out.target = {t.framebuffer, t.color_texture, t.width_px, t.height_px, t.color_space == RG_SRGB, static_cast<float>(t.exposure)};
+  out.target = {t.framebuffer, t.color_texture,          t.width_px,
+                t.height_px,   t.color_space == RG_SRGB, static_cast<float>(t.exposure)};
   out.depth_texture = t.depth_texture;
 }
 
@@ -373,6 +409,7 @@ rg_result draw(rg_instance* instance, rg_draw* in, DrawStage stage) {
   return guarded(instance, [&](Frame& frame) {
     const rg_draw d = readStruct(in, "rg_draw");
     DrawRequest request;
+    checkTime(d.time_ns, "rg_draw.time_ns");
     request.time_ns = d.time_ns;
     request.view = readView(d.view);
     std::memcpy(&request.viewport_px[0], d.view->viewport_px, sizeof d.view->viewport_px);
@@ -393,7 +430,10 @@ rg_result reset(rg_instance* instance) {
 }
 
 rg_result seek(rg_instance* instance, int64_t time_ns) {
-  return guarded(instance, [&](Frame& frame) { frame.seek(time_ns); });
+  return guarded(instance, [&](Frame& frame) {
+    checkTime(time_ns, "seek's time_ns");
+    frame.seek(time_ns);
+  });
 }
 
 rg_result prewarm(rg_instance* instance, double seconds) {
@@ -412,11 +452,13 @@ rg_result rebaseOrigin(rg_instance* instance, const double shift_m[3]) {
 }
 
 rg_result save(rg_instance* instance, void*, size_t*) {
-  return guarded(instance, [](Frame&) { refuse("this build does not save its state", RG_ERROR_MISSING_FEATURE); });
+  return guarded(instance,
+                 [](Frame&) { refuse("this build does not save its state", RG_ERROR_MISSING_FEATURE); });
 }
 
 rg_result restore(rg_instance* instance, const void*, size_t) {
-  return guarded(instance, [](Frame&) { refuse("this build does not restore a state", RG_ERROR_MISSING_FEATURE); });
+  return guarded(instance,
+                 [](Frame&) { refuse("this build does not restore a state", RG_ERROR_MISSING_FEATURE); });
 }
 
 // ---- questions ----
@@ -460,12 +502,15 @@ rg_result getPaneStats(rg_instance* instance, uint32_t pane, rg_pane_stats* out)
 }
 
 rg_result getStageCount(rg_instance* instance, uint32_t* out) {
-  return guarded(instance, [&](Frame& frame) { *checkOut(out, "out") = static_cast<uint32_t>(frame.timers().stageCount()); });
+  return guarded(instance, [&](Frame& frame) {
+    *checkOut(out, "out") = static_cast<uint32_t>(frame.timers().stageCount());
+  });
 }
 
 rg_result getStage(rg_instance* instance, uint32_t index, rg_stage_stats* out) {
   return guarded(instance, [&](Frame& frame) {
-    if (index >= frame.timers().stageCount()) refuse("there is no stage " + std::to_string(index), RG_ERROR_NOT_FOUND);
+    if (index >= frame.timers().stageCount())
+      refuse("there is no stage " + std::to_string(index), RG_ERROR_NOT_FOUND);
     const gl::StageTimes t = frame.timers().times(index);
     rg_stage_stats r{};
     r.gpu = t.gpu ? 1 : 0;
@@ -498,7 +543,8 @@ rg_result getHash(rg_instance* instance, int32_t kind, uint64_t* out) {
 // ---- parameters ----
 
 rg_result getParameterCount(rg_instance* instance, uint32_t* out) {
-  return guarded(instance, [&](Frame&) { *checkOut(out, "out") = static_cast<uint32_t>(std::size(kSettings)); });
+  return guarded(instance,
+                 [&](Frame&) { *checkOut(out, "out") = static_cast<uint32_t>(std::size(kSettings)); });
 }
 
 void copyText(const char* from, char* to, size_t size) {
@@ -508,7 +554,8 @@ void copyText(const char* from, char* to, size_t size) {
 
 rg_result getParameter(rg_instance* instance, uint32_t index, rg_parameter* out) {
   return guarded(instance, [&](Frame& frame) {
-    if (index >= std::size(kSettings)) refuse("there is no parameter " + std::to_string(index), RG_ERROR_NOT_FOUND);
+    if (index >= std::size(kSettings))
+      refuse("there is no parameter " + std::to_string(index), RG_ERROR_NOT_FOUND);
     const SettingInfo& info = kSettings[index];
     rg_parameter p{};
     copyText(info.name, p.name, sizeof p.name);
@@ -537,16 +584,57 @@ rg_result setParameter(rg_instance* instance, const char* name, double value) {
 }
 
 constexpr rg_api kApi = {
-    sizeof(rg_api), RG_ABI_MINOR, RG_VERSION,
-    defaultCreateInfo, defaultGlInfo, defaultVehicle, defaultWeather, defaultView, defaultSample, defaultVolumeInfo, defaultPaneInfo,
-    defaultWiperInfo, defaultTarget, defaultLighting, defaultDraw, defaultCaptureInfo,
-    create, destroy, lastError,
-    attachGl, detachGl, contextLost,
-    setVolume, removeVolume, removeVehicle, setPane, removePane, setWiper, removeWiper, placeDrops,
-    update, stepGpu, prepareCaptures, drawWorld, drawGlass, drawFinish,
-    reset, seek, prewarm, rebaseOrigin, save, restore,
-    getRainStats, getPaneStats, getStageCount, getStage, getTimerKind, getHash,
-    getParameterCount, getParameter, setParameter,
+    sizeof(rg_api),
+    RG_ABI_MINOR,
+    RG_VERSION,
+    defaultCreateInfo,
+    defaultGlInfo,
+    defaultVehicle,
+    defaultWeather,
+    defaultView,
+    defaultSample,
+    defaultVolumeInfo,
+    defaultPaneInfo,
+    defaultWiperInfo,
+    defaultTarget,
+    defaultLighting,
+    defaultDraw,
+    defaultCaptureInfo,
+    create,
+    destroy,
+    lastError,
+    attachGl,
+    detachGl,
+    contextLost,
+    setVolume,
+    removeVolume,
+    removeVehicle,
+    setPane,
+    removePane,
+    setWiper,
+    removeWiper,
+    placeDrops,
+    update,
+    stepGpu,
+    prepareCaptures,
+    drawWorld,
+    drawGlass,
+    drawFinish,
+    reset,
+    seek,
+    prewarm,
+    rebaseOrigin,
+    save,
+    restore,
+    getRainStats,
+    getPaneStats,
+    getStageCount,
+    getStage,
+    getTimerKind,
+    getHash,
+    getParameterCount,
+    getParameter,
+    setParameter,
 };
 
 }  // namespace

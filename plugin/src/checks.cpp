@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace rg {
 namespace {
 
-constexpr double kFarthest_m = 1e8;          // beyond this a double no longer resolves a drop (1.5e-8 m)
-constexpr double kFastest_mps = 1000.0;      // for bodies and eyes
+constexpr double kFarthest_m = 1e8;           // beyond this a double no longer resolves a drop (1.5e-8 m)
+constexpr double kFastest_mps = 1000.0;       // for bodies and eyes
 constexpr double kStrongestWind_mps = 100.0;  // header's range
 constexpr uint32_t kMostBodies = 4096, kMostViews = 64, kMostKnots = 65536;
-constexpr double kUnitTolerance = 1e-3;  // header's range for unit quaternions
+constexpr int32_t kFarthestViewport_px = 32768;  // either way from the target's corner
+constexpr double kUnitTolerance = 1e-3;          // header's range for unit quaternions
 
 std::string number(double value) {
   char text[32];
@@ -28,10 +30,12 @@ Pose readPose(const rg_pose& in, const char* name) {
   Pose pose;
   pose.position_m = readVector(in.position_m, kFarthest_m, (prefix + "position_m").c_str());
   pose.velocity_mps = readVector(in.velocity_mps, kFastest_mps, (prefix + "velocity_mps").c_str());
-  pose.angular_velocity_radps = readVector(in.angular_velocity_radps, kFastest_mps, (prefix + "angular_velocity_radps").c_str());
+  pose.angular_velocity_radps =
+      readVector(in.angular_velocity_radps, kFastest_mps, (prefix + "angular_velocity_radps").c_str());
   const glm::dquat q(in.orientation[3], in.orientation[0], in.orientation[1], in.orientation[2]);
   const double length = std::sqrt(glm::dot(q, q));
-  if (!(std::abs(length - 1.0) <= kUnitTolerance)) refuse(prefix + "orientation has length " + number(length) + ", must be 1");
+  if (!(std::abs(length - 1.0) <= kUnitTolerance))
+    refuse(prefix + "orientation has length " + number(length) + ", must be 1");
   pose.orientation = glm::normalize(q);
   return pose;
 }
@@ -54,7 +58,8 @@ WeatherState readWeather(const rg_weather* in) {
   checkRange(w.temperature_c, -60.0, 60.0, "rg_weather.temperature_c");
   checkRange(w.humidity, 0.0, 1.0, "rg_weather.humidity");
   checkRange(w.visibility_m, 1.0, 1e6, "rg_weather.visibility_m");
-  return {w.rain_mm_h, readVector(w.wind_mps, kStrongestWind_mps, "rg_weather.wind_mps"), w.temperature_c, w.humidity};
+  return {w.rain_mm_h, readVector(w.wind_mps, kStrongestWind_mps, "rg_weather.wind_mps"), w.temperature_c,
+          w.humidity};
 }
 
 glm::dmat4 readMatrix(const double m[16], const char* name) {
@@ -71,20 +76,28 @@ void checkRigid(const glm::dmat4& m, const char* name) {
   const glm::dmat3 identity = r * glm::transpose(r);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      if (std::abs(identity[i][j] - (i == j ? 1.0 : 0.0)) > kUnitTolerance) refuse(std::string(name) + " is not rigid: it scales or shears");
+      if (std::abs(identity[i][j] - (i == j ? 1.0 : 0.0)) > kUnitTolerance)
+        refuse(std::string(name) + " is not rigid: it scales or shears");
     }
   }
   if (glm::determinant(r) < 0.0) refuse(std::string(name) + " mirrors");
-  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0) refuse(std::string(name) + " has a last row other than 0 0 0 1");
+  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
+    refuse(std::string(name) + " has a last row other than 0 0 0 1");
 }
 
 void readKnots(const rg_sample& in, Sample& out) {
-  checkArray(in.wiper_knots, in.wiper_knot_count, sizeof(rg_wiper_knot), sizeof(rg_wiper_knot), kMostKnots, "rg_sample.wiper_knots");
+  checkArray(in.wiper_knots, in.wiper_knot_count, sizeof(rg_wiper_knot), sizeof(rg_wiper_knot), kMostKnots,
+             "rg_sample.wiper_knots");
+  std::map<uint32_t, int64_t> latest_ns;  // of each wiper
   for (uint32_t i = 0; i < in.wiper_knot_count; ++i) {
     const rg_wiper_knot& k = in.wiper_knots[i];
     checkRange(k.angle_rad, -7.0, 7.0, "rg_wiper_knot.angle_rad");
     if (k.wiper == 0) refuse("rg_wiper_knot.wiper is 0");
+    checkTime(k.time_ns, "rg_wiper_knot.time_ns");
     if (k.time_ns > in.time_ns) refuse("rg_wiper_knot.time_ns is after its sample");
+    const auto [latest, first] = latest_ns.try_emplace(k.wiper, k.time_ns);
+    if (!first && latest->second > k.time_ns) refuse("rg_wiper_knot.time_ns does not ascend");
+    latest->second = k.time_ns;
     out.wiper_knots.push_back({k.wiper, {k.time_ns, k.angle_rad}});
   }
 }
@@ -93,7 +106,8 @@ template <typename T>
 void refuseTwice(std::vector<T> items, const char* name) {
   std::ranges::sort(items, {}, &T::id);
   const auto twice = std::ranges::adjacent_find(items, {}, &T::id);
-  if (twice != items.end()) refuse(std::string(name) + ": id " + std::to_string(twice->id) + " is listed twice");
+  if (twice != items.end())
+    refuse(std::string(name) + ": id " + std::to_string(twice->id) + " is listed twice");
 }
 
 }  // namespace
@@ -103,13 +117,23 @@ void checkRange(double value, double least, double most, const char* name) {
   refuse(std::string(name) + " is " + number(value) + ", must be " + number(least) + " .. " + number(most));
 }
 
-void checkArray(const void* items, uint64_t count, size_t stride, size_t element_size, uint64_t most, const char* name) {
+void checkArray(const void* items, uint64_t count, size_t stride, size_t element_size, size_t alignment,
+                uint64_t most, const char* name) {
   if (count == 0) return;
   if (items == nullptr) refuse(std::string(name) + " is null but its count is " + std::to_string(count));
-  if (count > most) refuse(std::string(name) + ": " + std::to_string(count) + " elements, at most " + std::to_string(most) + " are taken");
-  if (stride < element_size || stride > kLargestStruct || stride % 4 != 0) {
-    refuse(std::string(name) + ": stride " + std::to_string(stride) + " fits no version of its elements", RG_ERROR_BAD_STRUCT);
+  if (count > most)
+    refuse(std::string(name) + ": " + std::to_string(count) + " elements, at most " + std::to_string(most) +
+           " are taken");
+  if (stride < element_size || stride > kLargestStruct || stride % alignment != 0) {
+    refuse(std::string(name) + ": stride " + std::to_string(stride) + " fits no version of its elements",
+           RG_ERROR_BAD_STRUCT);
   }
+}
+
+void checkTime(int64_t time_ns, const char* name) {
+  constexpr int64_t kLatest_ns = INT64_C(1) << 61;  // 73 years: sums of two times stay in range
+  if (time_ns < -kLatest_ns || time_ns > kLatest_ns)
+    refuse(std::string(name) + " is out of range: at most 73 years from 0");
 }
 
 std::string readName(const char* name, const char* field) {
@@ -123,16 +147,20 @@ std::string readName(const char* name, const char* field) {
 ViewState readView(const rg_view* in) {
   const rg_view v = readStruct(in, "rg_view");
   if (v.id == 0) refuse("rg_view.id is 0");
-  if (v.viewport_px[2] <= 0 || v.viewport_px[3] <= 0 || v.viewport_px[2] > 32768 || v.viewport_px[3] > 32768) {
-    refuse("rg_view.viewport_px has size " + std::to_string(v.viewport_px[2]) + " x " + std::to_string(v.viewport_px[3]) +
-           ", must be 1 .. 32768");
+  if (v.viewport_px[2] <= 0 || v.viewport_px[3] <= 0 || v.viewport_px[2] > 32768 ||
+      v.viewport_px[3] > 32768) {
+    refuse("rg_view.viewport_px has size " + std::to_string(v.viewport_px[2]) + " x " +
+           std::to_string(v.viewport_px[3]) + ", must be 1 .. 32768");
   }
+  for (int i = 0; i < 2; ++i)
+    checkRange(v.viewport_px[i], -kFarthestViewport_px, kFarthestViewport_px, "rg_view.viewport_px");
   ViewState state;
   state.id = v.id;
   state.eyeFromWorld = readMatrix(v.eye_from_world, "rg_view.eye_from_world");
   checkRigid(state.eyeFromWorld, "rg_view.eye_from_world");
   state.clipFromEye = readMatrix(v.projection, "rg_view.projection");
-  if (!(std::abs(glm::determinant(state.clipFromEye)) > 0.0) || state.clipFromEye[0][0] == 0.0 || state.clipFromEye[1][1] == 0.0) {
+  if (!(std::abs(glm::determinant(state.clipFromEye)) > 0.0) || state.clipFromEye[0][0] == 0.0 ||
+      state.clipFromEye[1][1] == 0.0) {
     refuse("rg_view.projection has no inverse: the view has no volume");
   }
   state.clip_zero_to_one = v.clip_zero_to_one != 0;
@@ -147,17 +175,21 @@ ViewState readView(const rg_view* in) {
 
 Sample readSample(const rg_sample* in, const Sample* before) {
   const rg_sample s = readStruct(in, "rg_sample");
-  constexpr int64_t kLatest_ns = INT64_C(1) << 61;  // 73 years: sums of two times stay in range
-  if (s.time_ns < -kLatest_ns || s.time_ns > kLatest_ns) refuse("rg_sample.time_ns is out of range: at most 73 years from 0");
+  checkTime(s.time_ns, "rg_sample.time_ns");
   Sample out;
   out.time_ns = s.time_ns;
-  if (s.weather != nullptr) out.weather = readWeather(s.weather);
-  else if (before != nullptr) out.weather = before->weather;
-  checkArray(s.vehicles, s.vehicle_count, s.vehicle_stride, sizeof(rg_vehicle), kMostBodies, "rg_sample.vehicles");
-  for (uint32_t i = 0; i < s.vehicle_count; ++i) out.vehicles.push_back(readVehicle(element(s.vehicles, s.vehicle_stride, i)));
+  if (s.weather != nullptr)
+    out.weather = readWeather(s.weather);
+  else if (before != nullptr)
+    out.weather = before->weather;
+  checkArray(s.vehicles, s.vehicle_count, s.vehicle_stride, sizeof(rg_vehicle), kMostBodies,
+             "rg_sample.vehicles");
+  for (uint32_t i = 0; i < s.vehicle_count; ++i)
+    out.vehicles.push_back(readVehicle(element(s.vehicles, s.vehicle_stride, i)));
   refuseTwice(out.vehicles, "rg_sample.vehicles");
   checkArray(s.views, s.view_count, s.view_stride, sizeof(rg_view), kMostViews, "rg_sample.views");
-  for (uint32_t i = 0; i < s.view_count; ++i) out.views.push_back(readView(element(s.views, s.view_stride, i)));
+  for (uint32_t i = 0; i < s.view_count; ++i)
+    out.views.push_back(readView(element(s.views, s.view_stride, i)));
   refuseTwice(out.views, "rg_sample.views");
   if (s.views == nullptr && before != nullptr) {
     out.views = before->views;

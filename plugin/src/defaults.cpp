@@ -3,10 +3,13 @@
 namespace rg {
 namespace {
 
+// False for null: a function that can return no code does nothing then.
 template <typename T>
-void clear(T* out) {
+bool clear(T* out) {
+  if (out == nullptr) return false;
   *out = T{};
   out->struct_size = sizeof(T);
+  return true;
 }
 
 void identity(double m[16]) {
@@ -16,7 +19,7 @@ void identity(double m[16]) {
 }  // namespace
 
 void defaultCreateInfo(rg_create_info* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->max_drops = 131072;
   out->seed = 1;
 }
@@ -24,19 +27,19 @@ void defaultCreateInfo(rg_create_info* out) {
 void defaultGlInfo(rg_gl_info* out) { clear(out); }
 
 void defaultVehicle(rg_vehicle* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->pose.orientation[3] = 1.0;
 }
 
 void defaultWeather(rg_weather* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->temperature_c = 12.0;
   out->humidity = 0.9;
   out->visibility_m = 40000.0;
 }
 
 void defaultView(rg_view* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->id = 1;
   identity(out->eye_from_world);
   identity(out->projection);
@@ -44,18 +47,18 @@ void defaultView(rg_view* out) {
 }
 
 void defaultSample(rg_sample* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->vehicle_stride = sizeof(rg_vehicle);
   out->view_stride = sizeof(rg_view);
 }
 
 void defaultVolumeInfo(rg_volume_info* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->active = 1;
 }
 
 void defaultPaneInfo(rg_pane_info* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->active = 1;
   out->glass = RG_GLASS_UNCOATED;
   out->texel_m = 3e-3;
@@ -64,7 +67,7 @@ void defaultPaneInfo(rg_pane_info* out) {
 }
 
 void defaultWiperInfo(rg_wiper_info* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->axis[2] = 1.0;
   out->rest_direction[0] = 1.0;
   out->arm_m = 0.5;
@@ -73,13 +76,13 @@ void defaultWiperInfo(rg_wiper_info* out) {
 }
 
 void defaultTarget(rg_target* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->samples = 1;
   out->exposure = 1.0;
 }
 
 void defaultLighting(rg_lighting* out) {
-  clear(out);
+  if (!clear(out)) return;
   for (int i = 0; i < 3; ++i) {
     out->sky_radiance[i] = 1.0f;
     out->ground_radiance[i] = 0.2f;
@@ -89,7 +92,7 @@ void defaultLighting(rg_lighting* out) {
 void defaultDraw(rg_draw* out) { clear(out); }
 
 void defaultCaptureInfo(rg_capture_info* out) {
-  clear(out);
+  if (!clear(out)) return;
   out->max_faces = 1;
 }
 

@@ -1,4 +1,4 @@
-// The ABI's default_* functions.
+// The ABI's default_* functions. Null does nothing.
 #pragma once
 
 #include "rainglass/rainglass.h"

@@ -33,7 +33,9 @@ Frame::Frame(const rg_create_info& info)
 
 // An instance that is still attached has no context to free its GL objects in.
 Frame::~Frame() {
-  if (gl_) gl_->forget();
+  if (!gl_) return;
+  timers_.forget();
+  gl_->forget();
 }
 
 // ---- objects ----
@@ -53,17 +55,23 @@ void Frame::removeVolume(uint32_t id) {
 
 void Frame::removeVehicle(uint32_t id) {
   const std::lock_guard lock(sim_);
+  bool known = !timeline_.empty() && timeline_.vehicleAt(id, timeline_.last().time_ns).has_value();
+  known |= std::erase_if(volumes_, [id](const auto& v) { return v.second == id; }) > 0;
+  for (const auto& [pane_id, p] : panes_) {
+    if (p.vehicle == id) removeWipersOf(pane_id);
+  }
+  known |= std::erase_if(panes_, [id](const auto& p) { return p.second.vehicle == id; }) > 0;
+  if (!known) refuse("there is no vehicle " + std::to_string(id), RG_ERROR_NOT_FOUND);
   field_.removeVehicle(id);
-  std::erase_if(volumes_, [id](const auto& v) { return v.second == id; });
-  std::erase_if(wipers_, [&](const auto& w) { return panes_.contains(w.second.pane) && panes_.at(w.second.pane).vehicle == id; });
-  std::erase_if(panes_, [id](const auto& p) { return p.second.vehicle == id; });
   timeline_.removeVehicle(id);
 }
 
 void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::PaneInfo& info) {
   auto sim = std::make_shared<glass::PaneSim>(info, id, seed_);
   const std::lock_guard lock(sim_);
-  std::erase_if(wipers_, [id](const auto& w) { return w.second.pane == id; });
+  for (const auto& [wiper_id, w] : wipers_) {
+    if (w.pane == id) sim->setWiper(wiper_id, w.info);
+  }
   PaneObject object;
   object.vehicle = vehicle;
   object.active = active;
@@ -77,22 +85,28 @@ PaneObject& Frame::pane(uint32_t id) {
   return found->second;
 }
 
+void Frame::removeWipersOf(uint32_t pane) {
+  std::erase_if(wipers_, [&](const auto& w) {
+    if (w.second.pane != pane) return false;
+    timeline_.removeWiper(w.first);
+    return true;
+  });
+}
+
 void Frame::removePane(uint32_t id) {
   const std::lock_guard lock(sim_);
   pane(id);
-  std::erase_if(wipers_, [id](const auto& w) { return w.second.pane == id; });
+  removeWipersOf(id);
   panes_.erase(id);
 }
 
 void Frame::setWiper(uint32_t id, uint32_t pane_id, const glass::WiperInfo& info) {
   const std::lock_guard lock(sim_);
   PaneObject& on = pane(pane_id);
-  const auto known = wipers_.find(id);
-  if (known != wipers_.end() && known->second.pane != pane_id && panes_.contains(known->second.pane)) {
-    panes_.at(known->second.pane).sim->removeWiper(id);
-  }
   on.sim->setWiper(id, info);
-  wipers_[id] = {pane_id};
+  const auto known = wipers_.find(id);
+  if (known != wipers_.end() && known->second.pane != pane_id) pane(known->second.pane).sim->removeWiper(id);
+  wipers_[id] = {pane_id, info};
 }
 
 void Frame::removeWiper(uint32_t id) {
@@ -119,7 +133,8 @@ rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
     if (s.time_ns > time_ns) refuse("rg_sample.time_ns is after the update's time", RG_ERROR_WRONG_ORDER);
     after_ns = s.time_ns;
   }
-  if (started_ && time_ns < tickTimeNs(next_tick_ - 1)) refuse("update's time runs backwards; seek() first", RG_ERROR_WRONG_ORDER);
+  if (started_ && time_ns < tickTimeNs(next_tick_ - 1))
+    refuse("update's time runs backwards; seek() first", RG_ERROR_WRONG_ORDER);
   for (const Sample& s : samples) timeline_.add(s);
   if (timeline_.empty()) refuse("the first update needs a sample", RG_ERROR_WRONG_ORDER);
 
@@ -134,7 +149,7 @@ rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
   next_tick_ += dropped;
   for (; next_tick_ <= last; ++next_tick_) runTick(next_tick_, false);
   timeline_.prune(next_tick_ - 1);
-  field_.publish(upload_);
+  publish();
   return dropped > 0 ? RG_REMARK_TIME_DROPPED : field_.stats().thinning < 1.0 ? RG_REMARK_THINNED : RG_OK;
 }
 
@@ -185,7 +200,16 @@ void Frame::rebase(const glm::dvec3& shift_m) {
   const std::lock_guard lock(sim_);
   timeline_.rebase(shift_m);
   field_.rebase(shift_m);
-  field_.publish(upload_);
+  publish();
+}
+
+// What nobody fetches (no context, a host that stopped drawing) must not pile up: more changes than drops
+// there can be are told as all drops.
+void Frame::publish() {
+  if (upload_.slots.size() > capacity_)
+    field_.publishAll(upload_);
+  else
+    field_.publish(upload_);
 }
 
 // ---- questions ----
@@ -208,7 +232,8 @@ uint64_t Frame::hash(bool with_glass) {
   if (!with_glass) return h;
   for (auto& [id, p] : panes_) {
     const uint64_t film = gl_ ? gl_->filmHash(id, p) : 0;
-    for (const uint64_t part : {uint64_t{id}, p.sim->hash(), film}) h = (h ^ part) * UINT64_C(0x100000001b3);  // FNV-1a's prime
+    for (const uint64_t part : {uint64_t{id}, p.sim->hash(), film})
+      h = (h ^ part) * UINT64_C(0x100000001b3);  // FNV-1a's prime
   }
   return h;
 }

@@ -1,4 +1,5 @@
-// An instance of the plugin: the host's objects, and the order of a frame as named, timed stages. Functions throw ApiError.
+// An instance of the plugin: the host's objects, and the order of a frame as named, timed stages. Functions
+// throw ApiError.
 #pragma once
 
 #include <atomic>
@@ -14,6 +15,7 @@
 #include "glass/look_gl.h"
 #include "glass/pane.h"
 #include "glass/pane_gl.h"
+#include "last_error.h"
 #include "rain/field.h"
 #include "rain/rain_gl.h"
 #include "settings.h"
@@ -32,6 +34,7 @@ struct PaneObject {
 
 struct WiperObject {
   uint32_t pane = 0;
+  glass::WiperInfo info;
 };
 
 // A picture asked for, read from the ABI and checked.
@@ -52,7 +55,7 @@ class Frame {
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 
-  std::string last_error;
+  LastError last_error;
 
   // Objects.
   void setVolume(uint32_t id, const rain::VolumeInfo& info);
@@ -98,9 +101,11 @@ class Frame {
   void tickGlass(const Tick& tick);
   void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick);
   PaneObject& pane(uint32_t id);
+  void removeWipersOf(uint32_t pane);
   Gl& attached();
   void syncPanes(Gl& gl);
-  uint32_t touch() const;
+  void publish();
+  void requireMoment(int64_t time_ns) const;
 
   mutable std::mutex sim_;  // of all below; held by update throughout, by the GL thread for moments
   Timeline timeline_;

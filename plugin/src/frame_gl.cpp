@@ -1,16 +1,34 @@
 #include "frame_gl.h"
 
+#include <algorithm>
+
 #include "rain/picture.h"
 
 namespace rg {
 namespace {
 
 // What stepping and drawing touch; the host's framebuffer is only needed for drawing.
-constexpr uint32_t kStepTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_BUFFERS | RG_TOUCHED_TEXTURES | RG_TOUCHED_IMAGES | RG_TOUCHED_PIXEL_STORE;
-// A cabin is a dark room by day: share of the light from outside that the glass shows from within (unsourced).
+constexpr uint32_t kStepTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_BUFFERS | RG_TOUCHED_TEXTURES |
+                                  RG_TOUCHED_IMAGES | RG_TOUCHED_PIXEL_STORE;
+// A cabin is a dark room by day: share of the light from outside that the glass shows from within
+// (unsourced).
 constexpr float kCabinLight = 0.05f;
-constexpr uint32_t kDrawTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_TOUCHED_BUFFERS | RG_TOUCHED_TEXTURES | RG_TOUCHED_FRAMEBUFFER |
-                                  RG_TOUCHED_VIEWPORT | RG_TOUCHED_BLEND | RG_TOUCHED_DEPTH | RG_TOUCHED_RASTER | RG_TOUCHED_PIXEL_STORE;
+constexpr uint32_t kDrawTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_TOUCHED_BUFFERS |
+                                  RG_TOUCHED_TEXTURES | RG_TOUCHED_FRAMEBUFFER | RG_TOUCHED_VIEWPORT |
+                                  RG_TOUCHED_BLEND | RG_TOUCHED_DEPTH | RG_TOUCHED_RASTER |
+                                  RG_TOUCHED_PIXEL_STORE;
+
+constexpr int64_t kLatestPicture_ns =
+    1'000'000'000;  // header: a picture is of no time more than this before the last tick
+
+void requireTarget(const gl::Context& context, const DrawRequest& request) {
+  gl::requireDrawable(context, request.target.framebuffer);
+  gl::requireAttached(context, request.target.framebuffer, GL_COLOR_ATTACHMENT0, request.target.color_texture,
+                      "rg_target.color_texture");
+  gl::requireAttached(context, request.target.framebuffer, GL_DEPTH_ATTACHMENT, request.depth_texture,
+                      "rg_target.depth_texture");
+  gl::requireCube(context, request.lighting.environment_cube, "rg_lighting.environment_cube");
+}
 
 glm::dmat4 worldFromVehicle(const Pose& pose) {
   glm::dmat4 m = glm::mat4_cast(pose.orientation);
@@ -42,7 +60,8 @@ glass::LookPane lookPane(const glass::PaneDrawn& d, const Pose& vehicle, int64_t
 }  // namespace
 
 Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
-    : context(gl::loadContext(info.get_proc, info.get_proc_user)), host_resets_state(info.host_resets_state != 0) {
+    : context(gl::loadContext(info.get_proc, info.get_proc_user)),
+      host_resets_state(info.host_resets_state != 0) {
   const gl::StateGuard guarded = guard(kDrawTouches | kStepTouches);
   rain = std::make_unique<rain::RainRenderer>(*context, capacity);
   film_programs = glass::makeFilmPrograms(context->gl);
@@ -148,18 +167,26 @@ uint32_t Frame::prepareCaptures(const ViewState& view, int max_faces, const glas
   return guarded.touched();
 }
 
+void Frame::requireMoment(int64_t time_ns) const {
+  const std::lock_guard lock(sim_);
+  if (!started_ || time_ns >= tickTimeNs(next_tick_ - 1) - kLatestPicture_ns) return;
+  refuse("rg_draw.time_ns lies more than 1 s before the last tick", RG_ERROR_WRONG_ORDER);
+}
+
 uint32_t Frame::drawWorld(const DrawRequest& request) {
   Gl& gl = attached();
+  requireMoment(request.time_ns);
   gl::StateGuard guarded = gl.guard(kDrawTouches);
-  gl::requireDrawable(*gl.context, request.target.framebuffer);
+  requireTarget(*gl.context, request);
   guarded.drawInto(request.target.framebuffer);
   const gl::ScopedStage timed(timers_, stage_.rain_draw);
   rain::RainDraw draw;
   draw.view = &request.view;
   draw.viewport_px = request.viewport_px;
   draw.time_ns = request.time_ns;
-  draw.target = {request.target.framebuffer, request.target.color_texture, request.depth_texture, request.target.width_px,
-                 request.target.height_px, request.target.srgb, request.target.exposure};
+  draw.target = {request.target.framebuffer, request.target.color_texture, request.depth_texture,
+                 request.target.width_px,    request.target.height_px,     request.target.srgb,
+                 request.target.exposure};
   draw.lighting = request.lighting;
   draw.lighting.lamps = request.lamps;
   draw.gain = static_cast<float>(settings().rain_gain);
@@ -170,8 +197,9 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
 
 uint32_t Frame::drawGlass(const DrawRequest& request) {
   Gl& gl = attached();
+  requireMoment(request.time_ns);
   gl::StateGuard guarded = gl.guard(kDrawTouches);
-  gl::requireDrawable(*gl.context, request.target.framebuffer);
+  requireTarget(*gl.context, request);
   guarded.drawInto(request.target.framebuffer);
   if (request.target.color_texture == 0) guarded.readFrom(request.target.framebuffer);
   const gl::ScopedStage timed(timers_, stage_.glass_draw);
@@ -180,12 +208,15 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
     const std::lock_guard lock(sim_);
     for (auto& [id, half] : gl.panes) {
       const auto object = panes_.find(id);
-      if (object == panes_.end() || !object->second.active) continue;
+      // Replaced since the last step_gpu, a pane has nothing to be drawn yet.
+      if (object == panes_.end() || object->second.sim != half.sim || !object->second.active) continue;
       const auto vehicle = timeline_.vehicleAt(object->second.vehicle, request.time_ns);
       if (!vehicle) continue;
       const glass::PaneDrawn drawn = half.gl->drawn();
-      // The pane's own count of ticks has no gaps; the world's tick it stands for is so far behind the newest.
-      const int64_t world_tick = next_tick_ - 1 - (object->second.tick - drawn.drop_tick);
+      // The pane's own count of ticks has no gaps; the world's tick it stands for is so far behind the
+      // newest. After reset() the records are of a count that is no more.
+      const int64_t behind = std::max<int64_t>(0, object->second.tick - drawn.drop_tick);
+      const int64_t world_tick = next_tick_ - 1 - behind;
       seen.push_back(lookPane(drawn, vehicle->pose, request.time_ns, tickTimeNs(world_tick)));
     }
     gl.look->settings.brightness = static_cast<float>(settings_.glass_brightness);
@@ -209,9 +240,11 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
 // Nothing is drawn over the whole picture yet; the call checks that it could be.
 uint32_t Frame::drawFinish(const DrawRequest& request) {
   Gl& gl = attached();
+  requireMoment(request.time_ns);
+  const gl::StateGuard guarded = gl.guard(0);
   const gl::ScopedStage timed(timers_, stage_.finish);
-  gl::requireDrawable(*gl.context, request.target.framebuffer);
-  return 0;
+  requireTarget(*gl.context, request);
+  return guarded.touched();
 }
 
 }  // namespace rg

@@ -71,7 +71,7 @@ class SmallScene {
   rg_result setPane() const {
     const std::array<float, 12> positions{1, 0.2f, 1, 1, -0.2f, 1, 1, -0.2f, 1.4f, 1, 0.2f, 1.4f};
     const std::array<float, 8> uvs{0, 0, 1, 0, 1, 1, 0, 1};
-    const std::array<uint32_t, 6> indices{0, 1, 2, 0, 2, 3};
+    const std::array<uint32_t, 6> indices{0, 2, 1, 0, 3, 2};
     rg_pane_info pane;
     api.default_pane_info(&pane);
     pane.vehicle = kCar;
@@ -111,7 +111,7 @@ class SmallScene {
     car.pose.velocity_mps[0] = 10.0;
     view = viewAlongX(api, {x, 0.0, 1.2}, kSize_px);
     view.id = kView;
-    const rg_wiper_knot knot{time_ns, kWiper, 0, 0.7 + 0.7 * std::sin(static_cast<double>(steps) * 0.2)};
+    const rg_wiper_knot knot{time_ns, kWiper, 0, -0.7 - 0.7 * std::sin(static_cast<double>(steps) * 0.2)};
     rg_sample sample;
     api.default_sample(&sample);
     sample.time_ns = time_ns;

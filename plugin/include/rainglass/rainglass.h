@@ -44,9 +44,10 @@
  *   Every function returns an rg_result; negative means: nothing was changed, last_error() tells why. Positive means done, with a remark.
  *   GL: every call on the GL thread leaves your state as it found it (see attach_gl). Preconditions that GL cannot ask or suspend: no
  *   transform feedback active and unpaused, no query of target SAMPLES_PASSED / ANY_SAMPLES_PASSED / PRIMITIVES_* /
- *   TRANSFORM_FEEDBACK_* active, no conditional render in progress. Timestamps are used, never TIME_ELAPSED.
+ *   TRANSFORM_FEEDBACK_* active, no conditional render in progress. Timestamps are used, never TIME_ELAPSED. What you deleted while it was
+ *   bound or in use (a program, a buffer) has lost its name and cannot be bound again: after a call it is unbound.
  *   [thread: any one] a call of this kind may come from any thread, but not at once with another on the same instance of the same kind.
- *   update and the GL thread's functions may run at the same time.
+ *   update (and what is marked [thread: as update]) may run at the same time as the GL thread's functions; context_lost beside neither.
  */
 #ifndef RAINGLASS_H
 #define RAINGLASS_H
@@ -154,7 +155,7 @@ typedef struct rg_weather {
   double wind_mps[3];    /* velocity of the air, world axes, each within +-100; default 0 */
   double temperature_c;  /* -60 .. 60; default 12 */
   double humidity;       /* relative, 0 .. 1; default 0.9 */
-  double visibility_m;   /* meteorological range without rain, > 0; default 40000 */
+  double visibility_m;   /* meteorological range without rain, 1 .. 1e6; default 40000 */
 } rg_weather;
 
 /* One eye's picture. The same struct tells update which volumes will be looked into and draw what to draw. */
@@ -256,7 +257,7 @@ typedef enum rg_color_space { RG_LINEAR_HDR = 0, RG_SRGB = 1 } rg_color_space;
 typedef struct rg_target {
   uint32_t struct_size;
   uint32_t framebuffer;    /* complete, single-sampled in this build, colour attachment 0 drawn */
-  uint32_t color_texture;  /* GL_TEXTURE_2D attached there as colour 0, or 0 */
+  uint32_t color_texture;  /* GL_TEXTURE_2D attached there as colour 0, or 0. Any other is RG_ERROR_WRONG_ORDER, as for depth_texture */
   uint32_t depth_texture;  /* GL_TEXTURE_2D attached there as depth, or 0: the framebuffer's depth buffer is tested, streaks end hard */
   int32_t width_px;
   int32_t height_px;
@@ -298,7 +299,10 @@ typedef struct rg_draw {
   const rg_lighting* lighting;
 } rg_draw;
 
-/* Scene and sky behind the glass as seen wide from `eye_from_world`: no rain, no panes, no cabin. Called inside prepare_captures only. */
+/* Scene and sky behind the glass as seen wide from `eye_from_world`: no rain, no panes, no cabin. Called inside prepare_captures only, with
+ * GL in the plugin's state, not yours: set all that you draw with (framebuffer, viewport, clip control, tests, masks, program, textures).
+ * Programs, vertex arrays, buffers, texture units 0 .. 7, framebuffers, viewport, blend, depth, raster and pixel store are yours again when
+ * prepare_captures returns; what else you change stays changed. Call no function of the plugin's for the GL thread. */
 typedef void (*rg_capture_fn)(void* user, uint32_t framebuffer, int32_t width_px, int32_t height_px, const double eye_from_world[16],
                               const double projection[16]);
 typedef struct rg_capture_info {
@@ -377,7 +381,7 @@ typedef struct rg_api {
   uint32_t abi_minor;
   const char* version;  /* of the plugin, static */
 
-  /* Defaults: fill in *out wholly, struct_size included. [thread: any] */
+  /* Defaults: fill in *out wholly, struct_size included; null does nothing. [thread: any] */
   void (*default_create_info)(rg_create_info* out);
   void (*default_gl_info)(rg_gl_info* out);
   void (*default_vehicle)(rg_vehicle* out);
@@ -396,7 +400,8 @@ typedef struct rg_api {
    * GL object (there may be no context): detach first. */
   rg_result (*create)(const rg_create_info* info, rg_instance** out);
   void (*destroy)(rg_instance* instance);
-  /* Text of the last error of this instance (or of the last failed create on this thread, for null); valid until the next call. */
+  /* Text of this instance's last error on this thread (where it had none, of the last on any; for null, of the last failed create on this
+   * thread); valid until this thread's next call. [thread: any] */
   const char* (*last_error)(rg_instance* instance);
 
   /* GL. [thread: GL, context current] attach_gl makes all GL objects; attach again after detach_gl or context_lost. With host_resets_state
@@ -407,7 +412,8 @@ typedef struct rg_api {
    * booked as drained. [thread: any one] */
   rg_result (*context_lost)(rg_instance* instance);
 
-  /* Objects. [thread: as update] Adding an id again replaces it. */
+  /* Objects. [thread: as update] Adding an id again replaces it; a pane then starts dry and keeps its wipers. A pane takes its wipers along
+   * when it is removed. */
   rg_result (*set_volume)(rg_instance* instance, uint32_t id, const rg_volume_info* info);
   rg_result (*remove_volume)(rg_instance* instance, uint32_t id);
   rg_result (*remove_vehicle)(rg_instance* instance, uint32_t id); /* with its volumes, panes and wipers */
@@ -419,8 +425,8 @@ typedef struct rg_api {
   rg_result (*place_drops)(rg_instance* instance, uint32_t pane, const rg_glass_drop* drops, uint32_t count);
 
   /* Frame. */
-  /* Runs ticks up to time_ns. Samples ascend in time, all after those given before and not after time_ns. The first update starts the clock
-   * (its first sample, or time_ns). [thread: any one, no GL] */
+  /* Runs ticks up to time_ns. Samples ascend in time, all after those given before (and after seek's time) and not after time_ns. The first
+   * update needs a sample, which starts the clock. Times lie within 73 years of 0. [thread: any one, no GL] */
   rg_result (*update)(rg_instance* instance, int64_t time_ns, const rg_sample* samples, uint32_t count, size_t stride);
   rg_result (*step_gpu)(rg_instance* instance);                                     /* [thread: GL] */
   rg_result (*prepare_captures)(rg_instance* instance, const rg_capture_info* info); /* [thread: GL] */

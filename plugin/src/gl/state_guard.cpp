@@ -45,6 +45,44 @@ void requireDrawable(const Context& context, GLuint framebuffer) {
   if (samples > 1) throw Error(Error::Kind::kWrongOrder, name + " is multisampled");
 }
 
+namespace {
+
+// Mesa does not tell a texture's target in the compatibility profile; there any texture passes.
+bool isTextureOf(const Context& context, GLuint texture, GLenum target) {
+  const GladGLContext& gl = context.gl;
+  if (!gl.IsTexture(texture)) return false;
+  if (context.compatibility) return true;
+  GLint found = 0;
+  gl.GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &found);
+  return static_cast<GLenum>(found) == target;
+}
+
+}  // namespace
+
+void requireAttached(const Context& context, GLuint framebuffer, GLenum attachment, GLuint texture,
+                     const char* field) {
+  if (texture == 0) return;
+  const GladGLContext& gl = context.gl;
+  const std::string name = std::string(field) + " (" + std::to_string(texture) + ")";
+  if (!isTextureOf(context, texture, GL_TEXTURE_2D))
+    throw Error(Error::Kind::kWrongOrder, name + " is no GL_TEXTURE_2D of this context");
+  GLint attached = 0;
+  if (framebuffer != 0) {
+    gl.GetNamedFramebufferAttachmentParameteriv(framebuffer, attachment,
+                                                GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &attached);
+  }
+  if (static_cast<GLuint>(attached) != texture) {
+    throw Error(Error::Kind::kWrongOrder,
+                name + " is not attached to framebuffer " + std::to_string(framebuffer));
+  }
+}
+
+void requireCube(const Context& context, GLuint texture, const char* field) {
+  if (texture == 0 || isTextureOf(context, texture, GL_TEXTURE_CUBE_MAP)) return;
+  throw Error(Error::Kind::kWrongOrder, std::string(field) + " (" + std::to_string(texture) +
+                                            ") is no GL_TEXTURE_CUBE_MAP of this context");
+}
+
 StateGuard::StateGuard(const Context& context, uint32_t touches, bool host_resets_state)
     : context_(context), touches_(touches) {
   const std::string obstacle = findObstacle(context);

@@ -35,6 +35,13 @@ std::string findObstacle(const Context& context);
 // Throws Error::kWrongOrder unless `framebuffer` is complete for drawing and single-sampled.
 void requireDrawable(const Context& context, GLuint framebuffer);
 
+// Throws Error::kWrongOrder, naming `field`, unless the texture is 0 or a GL_TEXTURE_2D that is attached
+// there (level 0 of it).
+void requireAttached(const Context& context, GLuint framebuffer, GLenum attachment, GLuint texture,
+                     const char* field);
+// The same unless it is 0 or a GL_TEXTURE_CUBE_MAP.
+void requireCube(const Context& context, GLuint texture, const char* field);
+
 // Puts everything in `touches` in the state the plugin draws with: no tests, no blending, no culling, all
 // colour written, depth neither tested nor written, clip space as OpenGL's own, samplers and buffers for
 // pixels unbound, pixel store at its defaults. A stage changes what it wants from there and need not put it

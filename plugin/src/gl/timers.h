@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -97,7 +98,7 @@ class Timers {
 
   std::deque<StageData> stages_;
   const Context* context_ = nullptr;
-  TimerKind kind_ = TimerKind::kGpu;
+  std::atomic<TimerKind> kind_ = TimerKind::kGpu;  // asked by update's thread
   mutable std::mutex windows_;  // stages of the CPU's update and of the GL thread end at the same time
 };
 
