@@ -1,10 +1,11 @@
 #include "budget.h"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "scenario.h"
 
@@ -12,7 +13,8 @@ namespace host {
 
 Budget loadBudget(const std::filesystem::path& file, const std::string& scenario, bool gpu_timer) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such budget file");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string() + ": no such budget file");
   toml::table table;
   try {
     table = toml::parse_file(file.string());
@@ -28,13 +30,16 @@ Budget loadBudget(const std::filesystem::path& file, const std::string& scenario
   for (const auto& [key, value] : *limits) {
     const toml::node& node = value;
     const auto limit = node.value<double>();
-    if (!limit || !(*limit > 0.0)) throw InputError(file.string() + ": " + kind + "." + scenario + "." + std::string(key.str()) + " must be a number above 0");
+    if (!limit || !(*limit > 0.0))
+      throw InputError(file.string() + ": " + kind + "." + scenario + "." + std::string(key.str()) +
+                       " must be a number above 0");
     budget[std::string(key.str())] = *limit;
   }
   return budget;
 }
 
-ReferencePass::ReferencePass(const Context& context, glm::ivec2 size_px) : gl_(context.gl()), size_px_(size_px) {
+ReferencePass::ReferencePass(const Context& context, glm::ivec2 size_px)
+    : gl_(context.gl()), size_px_(size_px) {
   gl_.CreateTextures(GL_TEXTURE_2D, 2, textures_);
   gl_.CreateFramebuffers(2, framebuffers_);
   const GLfloat grey[4] = {0.5F, 0.5F, 0.5F, 1.0F};
@@ -53,7 +58,8 @@ ReferencePass::~ReferencePass() {
 void ReferencePass::run() {
   gl_.Finish();
   const auto begin = std::chrono::steady_clock::now();
-  gl_.BlitNamedFramebuffer(framebuffers_[0], framebuffers_[1], 0, 0, size_px_.x, size_px_.y, 0, 0, size_px_.x, size_px_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_.BlitNamedFramebuffer(framebuffers_[0], framebuffers_[1], 0, 0, size_px_.x, size_px_.y, 0, 0, size_px_.x,
+                           size_px_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl_.Finish();
   ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
 }
@@ -65,13 +71,15 @@ double ReferencePass::medianMs() const {
   return sorted[sorted.size() / 2];
 }
 
-bool keepsBudget(const Budget& budget, const std::vector<rg_stage_stats>& stages, bool gpu_timer, double reference_ms) {
+bool keepsBudget(const Budget& budget, const std::vector<rg_stage_stats>& stages, bool gpu_timer,
+                 double reference_ms) {
   const char* unit = gpu_timer ? "ms" : "x ref";
   if (!gpu_timer) std::printf("reference pass (RGBA16F copy): %.3f ms\n", reference_ms);
   std::printf("%-16s %12s %12s\n", "stage", "measured", "allowed");
   bool kept = true;
   for (const auto& [name, allowed] : budget) {
-    const auto stage = std::ranges::find_if(stages, [&wanted = name](const rg_stage_stats& s) { return wanted == s.name; });
+    const auto stage =
+        std::ranges::find_if(stages, [&wanted = name](const rg_stage_stats& s) { return wanted == s.name; });
     if (stage == stages.end() || stage->samples == 0) {
       std::printf("%-16s %12s %9.3f %s  never ran\n", name.c_str(), "-", allowed, unit);
       kept = false;
@@ -79,7 +87,8 @@ bool keepsBudget(const Budget& budget, const std::vector<rg_stage_stats>& stages
     }
     const double ms = stage->gpu != 0 ? stage->gpu_ms_p50 : stage->cpu_ms_p50;
     const double measured = gpu_timer ? ms : ms / std::max(reference_ms, 1e-6);
-    std::printf("%-16s %6.3f %-5s %6.3f %-5s%s\n", name.c_str(), measured, unit, allowed, unit, measured > allowed ? "  OVER" : "");
+    std::printf("%-16s %6.3f %-5s %6.3f %-5s%s\n", name.c_str(), measured, unit, allowed, unit,
+                measured > allowed ? "  OVER" : "");
     kept = kept && measured <= allowed;
   }
   return kept;

@@ -13,10 +13,12 @@
 
 namespace host {
 
-// Per stage: GPU (or, for stages of the CPU alone, CPU) median a frame may take: ms on a GPU, multiples of the reference pass on software GL.
+// Per stage: GPU (or, for stages of the CPU alone, CPU) median a frame may take: ms on a GPU, multiples of
+// the reference pass on software GL.
 using Budget = std::map<std::string, double>;
 
-// Reads [gpu.SCENARIO] or [software.SCENARIO]. Throws InputError naming file and key; also when the scenario has none.
+// Reads [gpu.SCENARIO] or [software.SCENARIO]. Throws InputError naming file and key; also when the scenario
+// has none.
 Budget loadBudget(const std::filesystem::path& file, const std::string& scenario, bool gpu_timer);
 
 // A full-screen RGBA16F copy, timed between two glFinish.
@@ -38,6 +40,7 @@ class ReferencePass {
 };
 
 // Prints a table of stage, measured, allowed to standard output. True when all stages kept to it.
-bool keepsBudget(const Budget& budget, const std::vector<rg_stage_stats>& stages, bool gpu_timer, double reference_ms);
+bool keepsBudget(const Budget& budget, const std::vector<rg_stage_stats>& stages, bool gpu_timer,
+                 double reference_ms);
 
 }  // namespace host

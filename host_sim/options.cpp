@@ -17,7 +17,8 @@ glm::ivec2 parseSize(const std::string& text) {
   glm::ivec2 size(0);
   char x = 0, rest = 0;
   std::istringstream in(text);
-  if (!(in >> size.x >> x >> size.y) || x != 'x' || in >> rest || size.x < 16 || size.y < 16 || size.x > kLargest_px || size.y > kLargest_px) {
+  if (!(in >> size.x >> x >> size.y) || x != 'x' || in >> rest || size.x < 16 || size.y < 16 ||
+      size.x > kLargest_px || size.y > kLargest_px) {
     throw InputError("--size " + text + ": must be WIDTHxHEIGHT, each 16 .. 16384");
   }
   return size;
@@ -29,7 +30,8 @@ std::vector<double> parseShots(const std::string& text) {
   for (std::string item; std::getline(in, item, ',');) {
     char* end = nullptr;
     const double t = std::strtod(item.c_str(), &end);
-    if (item.empty() || *end != '\0' || !(t >= 0.0 && t <= 36000.0)) throw InputError("--shots " + text + ": \"" + item + "\" is not a time in seconds");
+    if (item.empty() || *end != '\0' || !(t >= 0.0 && t <= 36000.0))
+      throw InputError("--shots " + text + ": \"" + item + "\" is not a time in seconds");
     shots.push_back(t);
   }
   std::ranges::sort(shots);
@@ -42,7 +44,8 @@ double parseUpdateHz(const std::string& text, bool& irregular) {
   if (irregular || text.empty()) return 0.0;
   char* end = nullptr;
   const double hz = std::strtod(text.c_str(), &end);
-  if (*end != '\0' || !(hz >= 1.0 && hz <= 10000.0)) throw InputError("--update-hz " + text + ": must be 1 .. 10000 or irregular");
+  if (*end != '\0' || !(hz >= 1.0 && hz <= 10000.0))
+    throw InputError("--update-hz " + text + ": must be 1 .. 10000 or irregular");
   return hz;
 }
 
@@ -53,24 +56,34 @@ Options parseOptions(int argc, const char* const* argv, bool& done) {
   std::string size = "1280x720", shots, update_hz;
   double seconds = 0.0;
   uint64_t seed = 0;
-  CLI::App app{"Drives a glTF car through the rain: in a window, or headless to pictures, video and a report.", "host_sim"};
-  app.add_option("--scenario", o.scenario, "Scenario: a name in scenarios/, or a TOML file")->capture_default_str();
-  app.add_option("--environment", o.environment, "Surroundings and light from a latitude-longitude .hdr instead of the computed sky");
-  app.add_option("--drops", o.drops, "Show the drops of this list (JSON) on a flat pane before the environment, without rain or car");
+  CLI::App app{
+      "Drives a glTF car through the rain: in a window, or headless to pictures, video and a report.",
+      "host_sim"};
+  app.add_option("--scenario", o.scenario, "Scenario: a name in scenarios/, or a TOML file")
+      ->capture_default_str();
+  app.add_option("--environment", o.environment,
+                 "Surroundings and light from a latitude-longitude .hdr instead of the computed sky");
+  app.add_option(
+      "--drops", o.drops,
+      "Show the drops of this list (JSON) on a flat pane before the environment, without rain or car");
   app.add_flag("--headless", o.headless, "No window: OpenGL by EGL, no display needed");
   app.add_option("--size", size, "Size of the picture")->capture_default_str();
-  app.add_option("--fps", o.fps, "Pictures per simulated second; changes which moments are drawn, not the state")->capture_default_str();
+  app.add_option("--fps", o.fps,
+                 "Pictures per simulated second; changes which moments are drawn, not the state")
+      ->capture_default_str();
   auto* seconds_option = app.add_option("--seconds", seconds, "Simulated time, instead of the scenario's");
   auto* seed_option = app.add_option("--seed", seed, "Seed of all randomness, instead of the scenario's");
   app.add_option("--car", o.car, "glTF car, instead of the scenario's");
   app.add_option("--road", o.road, "glTF road, instead of the scenario's");
-  app.add_option("--set", o.changes, "Change a key of the scenario: path.to.key=value")->allow_extra_args(false);
+  app.add_option("--set", o.changes, "Change a key of the scenario: path.to.key=value")
+      ->allow_extra_args(false);
   app.add_option("--camera", o.camera, "cockpit, outside, front, side or free");
   app.add_option("--shots", shots, "Write DIR/shot_<seconds>.png at these times: T1,T2,...");
   app.add_option("--video", o.video, "Write an mp4 (needs the ffmpeg program)");
   app.add_option("--out", o.out, "Folder for shots and report.json")->capture_default_str();
   app.add_option("--budget", o.budget, "Hold the run to this budget file; exit code 4 when over");
-  app.add_option("--update-hz", update_hz, "How time is cut into plugin updates: a rate, or irregular; does not change the state");
+  app.add_option("--update-hz", update_hz,
+                 "How time is cut into plugin updates: a rate, or irregular; does not change the state");
   app.footer("Exit codes: 0 done, 1 failed, 2 wrong usage or input, 3 no OpenGL 4.5, 4 over budget.");
   try {
     app.parse(argc, argv);

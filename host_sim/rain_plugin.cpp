@@ -152,7 +152,9 @@ void RainPlugin::update(int64_t time_ns) {
     s.wiper_knot_count = static_cast<uint32_t>(m.knots.size());
     samples.push_back(s);
   }
-  check(api_->update(instance_, time_ns, samples.data(), static_cast<uint32_t>(samples.size()), sizeof(rg_sample)), "update");
+  check(api_->update(instance_, time_ns, samples.data(), static_cast<uint32_t>(samples.size()),
+                     sizeof(rg_sample)),
+        "update");
   waiting_.clear();
 }
 
@@ -164,7 +166,8 @@ void RainPlugin::capture(Renderer& renderer, const rg_view& view, int max_faces)
   info.max_faces = static_cast<uint32_t>(max_faces);
   info.view = &view;
   info.user = &renderer;
-  info.draw_scene = [](void* user, uint32_t framebuffer, int32_t width, int32_t height, const double eye[16], const double projection[16]) {
+  info.draw_scene = [](void* user, uint32_t framebuffer, int32_t width, int32_t height, const double eye[16],
+                       const double projection[16]) {
     glm::dmat4 eye_from_world, clip;
     std::memcpy(&eye_from_world[0][0], eye, sizeof eye_from_world);
     std::memcpy(&clip[0][0], projection, sizeof clip);
@@ -173,7 +176,8 @@ void RainPlugin::capture(Renderer& renderer, const rg_view& view, int max_faces)
   check(api_->prepare_captures(instance_, &info), "prepare_captures");
 }
 
-void RainPlugin::draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+void RainPlugin::draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view,
+                      const Target& target, const LightSummary& light) {
   rg_target t;
   api_->default_target(&t);
   t.framebuffer = target.framebuffer();
@@ -209,15 +213,18 @@ void RainPlugin::draw(DrawCall call, const char* name, int64_t time_ns, const rg
   check(call(instance_, &d), name);
 }
 
-void RainPlugin::drawWorld(int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+void RainPlugin::drawWorld(int64_t time_ns, const rg_view& view, const Target& target,
+                           const LightSummary& light) {
   draw(api_->draw_world, "draw_world", time_ns, view, target, light);
 }
 
-void RainPlugin::drawGlass(int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+void RainPlugin::drawGlass(int64_t time_ns, const rg_view& view, const Target& target,
+                           const LightSummary& light) {
   draw(api_->draw_glass, "draw_glass", time_ns, view, target, light);
 }
 
-void RainPlugin::drawFinish(int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light) {
+void RainPlugin::drawFinish(int64_t time_ns, const rg_view& view, const Target& target,
+                            const LightSummary& light) {
   draw(api_->draw_finish, "draw_finish", time_ns, view, target, light);
 }
 
@@ -277,7 +284,8 @@ void RainPlugin::placeDrops(uint32_t pane, std::span<const rg_glass_drop> drops)
   check(api_->place_drops(instance_, pane, drops.data(), static_cast<uint32_t>(drops.size())), "place_drops");
 }
 
-rg_view pluginView(const rg_api& api, const View& view, glm::ivec2 size_px, glm::dvec3 eye_velocity_mps, uint32_t vehicle) {
+rg_view pluginView(const rg_api& api, const View& view, glm::ivec2 size_px, glm::dvec3 eye_velocity_mps,
+                   uint32_t vehicle) {
   rg_view v;
   api.default_view(&v);
   v.id = kViewId;

@@ -1,4 +1,5 @@
-// The host's side of the plugin: loads the library, tells it the world, has it draw. Sees only the public header.
+// The host's side of the plugin: loads the library, tells it the world, has it draw. Sees only the public
+// header.
 #pragma once
 
 #include <filesystem>
@@ -79,7 +80,8 @@ class RainPlugin {
   void check(rg_result result, const char* call);
   void addVolume(uint32_t id, uint32_t vehicle, const ShelterView& shelter);
   using DrawCall = rg_result (*)(rg_instance*, rg_draw*);
-  void draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view, const Target& target, const LightSummary& light);
+  void draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view, const Target& target,
+            const LightSummary& light);
 
   void* library_ = nullptr;
   const rg_api* api_ = nullptr;
@@ -90,7 +92,8 @@ class RainPlugin {
   std::vector<Moment> waiting_;
 };
 
-rg_view pluginView(const rg_api& api, const View& view, glm::ivec2 size_px, glm::dvec3 eye_velocity_mps, uint32_t vehicle);
+rg_view pluginView(const rg_api& api, const View& view, glm::ivec2 size_px, glm::dvec3 eye_velocity_mps,
+                   uint32_t vehicle);
 rg_vehicle pluginVehicle(const rg_api& api, const CarState& car);
 
 }  // namespace host

@@ -55,8 +55,13 @@ void writeReport(const std::filesystem::path& file, const Report& r) {
   json["simulated_s"] = r.simulated_s;
   json["wall_s"] = r.wall_s;
   json["stages"] = stages(r.stages);
-  json["rain"] = {{"rate_mm_h", r.rain.rate_mm_h}, {"live", r.rain.live}, {"born", r.rain.born}, {"died", r.rain.died},
-                  {"sheltered_at_birth", r.rain.sheltered_at_birth}, {"shelter_tests", r.rain.shelter_tests}, {"thinning", r.rain.thinning}};
+  json["rain"] = {{"rate_mm_h", r.rain.rate_mm_h},
+                  {"live", r.rain.live},
+                  {"born", r.rain.born},
+                  {"died", r.rain.died},
+                  {"sheltered_at_birth", r.rain.sheltered_at_birth},
+                  {"shelter_tests", r.rain.shelter_tests},
+                  {"thinning", r.rain.thinning}};
   json["panes"] = Json::array();
   for (const auto& [name, stats] : r.panes) json["panes"].push_back(pane(name, stats));
   json["rain_hash"] = hex(r.rain_hash);

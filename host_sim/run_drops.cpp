@@ -24,9 +24,12 @@ struct DropList {
 };
 
 double number(const Json& object, const char* key, double least, double most, const std::string& where) {
-  if (!object.is_object() || !object.contains(key) || !object[key].is_number()) throw InputError(where + "." + key + ": must be a number");
+  if (!object.is_object() || !object.contains(key) || !object[key].is_number())
+    throw InputError(where + "." + key + ": must be a number");
   const double value = object[key].get<double>();
-  if (!(value >= least && value <= most)) throw InputError(where + "." + key + " is " + std::to_string(value) + ", must be " + std::to_string(least) + " .. " + std::to_string(most));
+  if (!(value >= least && value <= most))
+    throw InputError(where + "." + key + " is " + std::to_string(value) + ", must be " +
+                     std::to_string(least) + " .. " + std::to_string(most));
   return value;
 }
 
@@ -39,11 +42,13 @@ DropList readDrops(const std::filesystem::path& file) {
   if (!json.is_object()) throw InputError(name + ": is not a JSON object");
   DropList list;
   constexpr double kRad = 3.14159265358979323846 / 180.0;
-  list.angle_rad = number(json.value("pane", Json()), "angle_from_horizontal_deg", 0.0, 90.0, name + ": pane") * kRad;
+  list.angle_rad =
+      number(json.value("pane", Json()), "angle_from_horizontal_deg", 0.0, 90.0, name + ": pane") * kRad;
   const Json eye = json.value("eye_m", Json());
   if (!eye.is_array() || eye.size() != 3) throw InputError(name + ": eye_m must be three numbers");
   for (size_t i = 0; i < 3; ++i) {
-    if (!eye[i].is_number() || !(std::abs(eye[i].get<double>()) <= 100.0)) throw InputError(name + ": eye_m must be three numbers within 100 m");
+    if (!eye[i].is_number() || !(std::abs(eye[i].get<double>()) <= 100.0))
+      throw InputError(name + ": eye_m must be three numbers within 100 m");
     list.eye_m[static_cast<int>(i)] = eye[i].get<double>();
   }
   list.fov_rad = number(json, "horizontal_fov_deg", 1.0, 170.0, name + ": ") * kRad;
@@ -51,13 +56,16 @@ DropList readDrops(const std::filesystem::path& file) {
   if (!drops.is_array() || drops.empty()) throw InputError(name + ": drops must be a list");
   for (size_t i = 0; i < drops.size(); ++i) {
     const std::string where = name + ": drops[" + std::to_string(i) + "]";
-    list.drops.push_back({number(drops[i], "u_m", -10.0, 10.0, where), number(drops[i], "v_m", -10.0, 10.0, where),
-                          number(drops[i], "base_radius_m", 1e-5, 0.02, where), number(drops[i], "contact_angle_deg", 1.0, 170.0, where)});
+    list.drops.push_back({number(drops[i], "u_m", -10.0, 10.0, where),
+                          number(drops[i], "v_m", -10.0, 10.0, where),
+                          number(drops[i], "base_radius_m", 1e-5, 0.02, where),
+                          number(drops[i], "contact_angle_deg", 1.0, 170.0, where)});
   }
   return list;
 }
 
-// A flat pane about the origin, as large as the drops want, in the world's frame (the vehicle stands in its origin).
+// A flat pane about the origin, as large as the drops want, in the world's frame (the vehicle stands in its
+// origin).
 CarView flatPane(const DropList& list) {
   double half_u = 0.1, half_v = 0.1;
   for (const rg_glass_drop& d : list.drops) {
@@ -67,7 +75,8 @@ CarView flatPane(const DropList& list) {
   const glm::dvec3 right(0.0, -1.0, 0.0), up(-std::cos(list.angle_rad), 0.0, std::sin(list.angle_rad));
   PaneView pane;
   pane.name = "pane";
-  for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+  for (const glm::dvec2 corner :
+       {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
     pane.positions_m.push_back(glm::vec3(right * (corner.x * half_u) + up * (corner.y * half_v)));
     pane.uv.push_back(glm::vec2(corner * 0.5 + 0.5) * glm::vec2(1.0F, static_cast<float>(half_v / half_u)));
   }
@@ -96,7 +105,8 @@ int runDrops(const Options& options) {
   plugin.placeDrops(1, list.drops);
 
   View eye;
-  eye.eye_from_world = glm::lookAt(list.eye_m, list.eye_m + glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0));
+  eye.eye_from_world =
+      glm::lookAt(list.eye_m, list.eye_m + glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0));
   eye.projection = reversedPerspective(list.fov_rad, options.size_px, 0.01);
   const rg_view view = pluginView(plugin.api(), eye, options.size_px, glm::dvec3(0.0), kCarId);
   Moment moment;

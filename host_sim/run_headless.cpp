@@ -20,13 +20,15 @@ constexpr uint64_t kFramesPerReference = 8;
 void makeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error)) throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
+  if (!std::filesystem::is_directory(folder, error))
+    throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
 }
 
 void showProgress(double time_s, double seconds, uint64_t frames, double wall_s) {
   if (isatty(2) == 0) return;
   const double left_s = time_s > 0.0 ? wall_s / time_s * (seconds - time_s) : 0.0;
-  std::fprintf(stderr, "\r%6.1f of %.1f s, %llu pictures, %.0f s to go   ", time_s, seconds, static_cast<unsigned long long>(frames), left_s);
+  std::fprintf(stderr, "\r%6.1f of %.1f s, %llu pictures, %.0f s to go   ", time_s, seconds,
+               static_cast<unsigned long long>(frames), left_s);
 }
 
 }  // namespace
@@ -37,15 +39,20 @@ int runHeadless(const Options& options) {
   makeFolder(options.out);
   const auto context = makeHeadlessContext();
   Stage stage(options, scenario, std::move(models), *context);
-  const Budget budget = options.budget.empty() ? Budget{} : loadBudget(options.budget, scenario.name, stage.plugin().gpuTimer());
+  const Budget budget = options.budget.empty()
+                            ? Budget{}
+                            : loadBudget(options.budget, scenario.name, stage.plugin().gpuTimer());
   const Target target(*context, options.size_px);
   const Picture picture(*context, options.size_px);
   std::unique_ptr<Video> video;
-  if (!options.video.empty()) video = std::make_unique<Video>(options.video, options.size_px.x, options.size_px.y, options.fps);
+  if (!options.video.empty())
+    video = std::make_unique<Video>(options.video, options.size_px.x, options.size_px.y, options.fps);
   ReferencePass reference(*context, options.size_px);
 
   const auto begin = std::chrono::steady_clock::now();
-  const auto wall_s = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  const auto wall_s = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
   Report report;
   stage.prewarm();
   for (const Event& e : schedule(options, scenario.seconds)) {
@@ -66,7 +73,8 @@ int runHeadless(const Options& options) {
   report.wall_s = wall_s();
   stage.fillReport(report);
   writeReport(options.out / "report.json", report);
-  if (!budget.empty() && !keepsBudget(budget, report.stages, report.gpu_timer, reference.medianMs())) return 4;
+  if (!budget.empty() && !keepsBudget(budget, report.stages, report.gpu_timer, reference.medianMs()))
+    return 4;
   return 0;
 }
 

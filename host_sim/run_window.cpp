@@ -23,17 +23,25 @@ constexpr int64_t kPrewarmPiece_ns = 100'000'000;
 constexpr double kPrewarmPictureEvery_s = 0.25;
 
 using Clock = std::chrono::steady_clock;
-double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 void refuseWhatNeedsNoWindow(const Options& options) {
-  const char* option = !options.video.empty() ? "--video" : !options.shots_s.empty() ? "--shots" : !options.budget.empty() ? "--budget" : nullptr;
-  if (option) throw InputError(std::string(option) + " needs --headless: a window draws when it can, not at given times");
+  const char* option = !options.video.empty()     ? "--video"
+                       : !options.shots_s.empty() ? "--shots"
+                       : !options.budget.empty()  ? "--budget"
+                                                  : nullptr;
+  if (option)
+    throw InputError(std::string(option) +
+                     " needs --headless: a window draws when it can, not at given times");
 }
 
 void makeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error)) throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
+  if (!std::filesystem::is_directory(folder, error))
+    throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
 }
 
 class WindowRun {
@@ -75,8 +83,10 @@ class WindowRun {
 void WindowRun::listen() {
   WindowEvents& on = window_->events;
   on.on_key = [this](int key, bool pressed) {
-    if (pressed && key == GLFW_KEY_F1) overlay_.toggle();
-    else if (pressed) pilot_.onKey(key);
+    if (pressed && key == GLFW_KEY_F1)
+      overlay_.toggle();
+    else if (pressed)
+      pilot_.onKey(key);
   };
   on.on_cursor = [this](glm::dvec2 at_px) { overlay_.moveCursor(at_px); };
   on.on_button = [this](bool pressed) { overlay_.pressButton(pressed); };
@@ -115,7 +125,8 @@ void WindowRun::prewarm() {
 void WindowRun::drive() {
   const auto end_ns = options_.seconds ? static_cast<int64_t>(*options_.seconds * 1e9) : INT64_MAX;
   while (!window_->closed() && time_ns_ < end_ns) {
-    const auto passed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - before_).count();
+    const auto passed_ns =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - before_).count();
     pilot_.hold(static_cast<double>(passed_ns) * 1e-9);
     if (!pilot_.paused()) {
       time_ns_ += std::min({int64_t{passed_ns}, kLongestStep_ns, end_ns - time_ns_});
@@ -144,9 +155,10 @@ void WindowRun::show(const char* note) {
   overlay_.draw(stage_, target_.sizePx(), frame_s, fps, note);
   Simulation& sim = stage_.simulation();
   char title[200];
-  std::snprintf(title, sizeof title, "Rainglass  %.0f km/h%s  rain %.1f mm/h  wipers %s  %s  %.0f fps%s%s  (F1: keys)",
-                sim.driver().state().speed_mps * 3.6, sim.overrides.controls ? " by hand" : "", sim.weather().rain_mm_h,
-                wiperModeName(sim.wiperMode()), sim.camera.c_str(), fps, *note ? "  " : "", note);
+  std::snprintf(
+      title, sizeof title, "Rainglass  %.0f km/h%s  rain %.1f mm/h  wipers %s  %s  %.0f fps%s%s  (F1: keys)",
+      sim.driver().state().speed_mps * 3.6, sim.overrides.controls ? " by hand" : "", sim.weather().rain_mm_h,
+      wiperModeName(sim.wiperMode()), sim.camera.c_str(), fps, *note ? "  " : "", note);
   window_->setTitle(title);
   window_->show();
   ++frames_;

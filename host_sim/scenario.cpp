@@ -1,9 +1,10 @@
 #include "scenario.h"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <toml++/toml.h>
 
 namespace host {
 namespace {
@@ -15,7 +16,9 @@ class Reader {
  public:
   Reader(const toml::table* table, std::string where) : table_(table), where_(std::move(where)) {}
 
-  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw InputError(where_ + key + ": " + why); }
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const {
+    throw InputError(where_ + key + ": " + why);
+  }
 
   double number(const char* key, double preset, double least, double most) {
     const toml::node* node = find(key);
@@ -57,7 +60,8 @@ class Reader {
     std::vector<std::pair<double, const toml::node*>> result;
     for (const toml::node& item : *list) {
       const toml::array* pair = item.as_array();
-      if (pair == nullptr || pair->size() != 2 || !pair->get(0)->is_number()) refuse(key, "must be a list of [at, value]");
+      if (pair == nullptr || pair->size() != 2 || !pair->get(0)->is_number())
+        refuse(key, "must be a list of [at, value]");
       const double at = *pair->get(0)->value<double>();
       if (!std::isfinite(at) || (!result.empty() && at <= result.back().first)) refuse(key, "must ascend");
       result.emplace_back(at, pair->get(1));
@@ -77,7 +81,8 @@ class Reader {
   void finish() const {
     if (table_ == nullptr) return;
     for (const auto& [key, value] : *table_) {
-      if (!asked_.contains(std::string(key.str()))) refuse(std::string(key.str()), "is not a key of a scenario");
+      if (!asked_.contains(std::string(key.str())))
+        refuse(std::string(key.str()), "is not a key of a scenario");
     }
   }
 
@@ -100,7 +105,8 @@ void readDrive(Reader drive, DrivePlan& plan) {
   if (const toml::node* stops = drive.find("stops")) {
     for (const auto& [at, seconds] : drive.pairs("stops", *stops)) {
       const auto value = seconds->value<double>();
-      if (!value || !(*value >= 0.0 && *value <= 3600.0)) drive.refuse("stops", "must be a list of [way in m, seconds]");
+      if (!value || !(*value >= 0.0 && *value <= 3600.0))
+        drive.refuse("stops", "must be a list of [way in m, seconds]");
       plan.stops.push_back({at, *value});
     }
   }
@@ -130,7 +136,8 @@ void readWipers(Reader& top, Scenario& s) {
       top.refuse("wipers", e.what());
     }
   };
-  if (!node->is_array()) s.wipers = {{0.0, mode(*node)}};
+  if (!node->is_array())
+    s.wipers = {{0.0, mode(*node)}};
   else
     for (const auto& [at, value] : top.pairs("wipers", *node)) s.wipers.push_back({at, mode(*value)});
 }
@@ -142,9 +149,12 @@ void readParameters(Reader& top, Scenario& s) {
     for (const auto& [key, value] : table) {
       const std::string name = prefix + std::string(key.str());
       const toml::node& node = value;
-      if (node.is_table()) self(self, *node.as_table(), name + ".");
-      else if (const auto number = node.value<double>()) s.parameters.emplace_back(name, *number);
-      else section.refuse(name, "must be a number");
+      if (node.is_table())
+        self(self, *node.as_table(), name + ".");
+      else if (const auto number = node.value<double>())
+        s.parameters.emplace_back(name, *number);
+      else
+        section.refuse(name, "must be a number");
     }
   };
   walk(walk, *section.table(), "");
@@ -158,7 +168,8 @@ std::filesystem::path modelPath(const std::string& text, const std::filesystem::
 
 toml::table parseFile(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such scenario file");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string() + ": no such scenario file");
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& e) {
@@ -171,7 +182,8 @@ toml::table parseFile(const std::filesystem::path& file) {
 // "weather.rain_mm_h=20" changes that key, making tables on the way.
 void applyChange(toml::table& top, const std::string& change) {
   const auto equals = change.find('=');
-  if (equals == std::string::npos || equals == 0) throw InputError("--set " + change + ": must be path.to.key=value");
+  if (equals == std::string::npos || equals == 0)
+    throw InputError("--set " + change + ": must be path.to.key=value");
   const std::string path = change.substr(0, equals), value = change.substr(equals + 1);
   toml::table parsed;
   try {
@@ -194,9 +206,11 @@ void applyChange(toml::table& top, const std::string& change) {
 
 }  // namespace
 
-Scenario loadScenario(const std::string& name_or_file, const std::vector<std::string>& changes, const std::filesystem::path& root) {
+Scenario loadScenario(const std::string& name_or_file, const std::vector<std::string>& changes,
+                      const std::filesystem::path& root) {
   const bool is_file = name_or_file.ends_with(".toml") || name_or_file.find('/') != std::string::npos;
-  const std::filesystem::path file = is_file ? std::filesystem::path(name_or_file) : root / "scenarios" / (name_or_file + ".toml");
+  const std::filesystem::path file =
+      is_file ? std::filesystem::path(name_or_file) : root / "scenarios" / (name_or_file + ".toml");
   toml::table table = parseFile(file);
   for (const std::string& change : changes) applyChange(table, change);
 
@@ -208,7 +222,8 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   s.prewarm_s = top.number("prewarm_s", 0.0, 0.0, 600.0);
   s.seed = static_cast<uint64_t>(top.number("seed", 1.0, 0.0, 9e15));
   s.camera = top.text("camera", "cockpit");
-  if (std::ranges::find(kCameras, s.camera) == std::end(kCameras)) top.refuse("camera", "\"" + s.camera + "\" is none of cockpit, outside, front, side, free");
+  if (std::ranges::find(kCameras, s.camera) == std::end(kCameras))
+    top.refuse("camera", "\"" + s.camera + "\" is none of cockpit, outside, front, side, free");
   s.headlights = top.flag("headlights", true);
   Reader models = top.section("models");
   s.car = modelPath(models.text("car", "models/car.glb"), root);

@@ -28,7 +28,8 @@ struct Scenario {
   std::string name;
   std::string title;
   double seconds = 60.0;
-  double prewarm_s = 0.0;  // rain and water on the glass that long before the first picture, standing at the start
+  double prewarm_s =
+      0.0;  // rain and water on the glass that long before the first picture, standing at the start
   uint64_t seed = 1;
   std::filesystem::path car, road;  // empty: none
   DrivePlan plan;
@@ -46,8 +47,10 @@ struct Scenario {
 
 inline constexpr const char* kCameras[] = {"cockpit", "outside", "front", "side", "free"};
 
-// NAME (scenarios/NAME.toml below `root`) or FILE; `changes` are "path.to.key=value" with TOML values (bare words are taken as strings).
-Scenario loadScenario(const std::string& name_or_file, const std::vector<std::string>& changes, const std::filesystem::path& root);
+// NAME (scenarios/NAME.toml below `root`) or FILE; `changes` are "path.to.key=value" with TOML values (bare
+// words are taken as strings).
+Scenario loadScenario(const std::string& name_or_file, const std::vector<std::string>& changes,
+                      const std::filesystem::path& root);
 
 WiperMode wiperModeAt(const Scenario& scenario, double time_s);
 

@@ -48,7 +48,8 @@ std::vector<Event> schedule(const Options& options, double seconds) {
   uint64_t random = 1;
   for (int64_t k = 1, t = 0; !own_updates && t <= end_ns; ++k) {
     at(t).update = true;
-    t = options.irregular_updates ? t + irregularStep(random) : toNs(static_cast<double>(k) / options.update_hz);
+    t = options.irregular_updates ? t + irregularStep(random)
+                                  : toNs(static_cast<double>(k) / options.update_hz);
   }
   at(end_ns).update = true;
   std::vector<Event> list;

@@ -16,8 +16,8 @@ struct Event {
   std::string shot;  // file name, or empty
 };
 
-// Ascending. Pictures at k / fps where a video or a budget wants them, or where no shots are asked for; the shots; an update before each of
-// them, or at the asked rate; and a last update at the end.
+// Ascending. Pictures at k / fps where a video or a budget wants them, or where no shots are asked for; the
+// shots; an update before each of them, or at the asked rate; and a last update at the end.
 std::vector<Event> schedule(const Options& options, double seconds);
 
 }  // namespace host

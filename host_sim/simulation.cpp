@@ -9,13 +9,13 @@
 namespace host {
 namespace {
 
-constexpr double kAdaptation_s = 0.6;        // a driver's eye over the first decades (unsourced)
-constexpr int64_t kAdaptationTicks = 12;     // ten times a second
-// A driver's eye, and a camera that is to look like one, goes only part of the way from day to a tunnel's light: the cabin, the lit screens and
-// the bright mouth are seen too (unsourced).
+constexpr double kAdaptation_s = 0.6;     // a driver's eye over the first decades (unsourced)
+constexpr int64_t kAdaptationTicks = 12;  // ten times a second
+// A driver's eye, and a camera that is to look like one, goes only part of the way from day to a tunnel's
+// light: the cabin, the lit screens and the bright mouth are seen too (unsourced).
 constexpr double kAdaptedShare = 0.6;
 constexpr double kRoadDries_mm_per_s = 0.2 / 3600.0;  // on a mild day with traffic (unsourced)
-constexpr double kMostOnRoad_mm = 1.0;       // the rest runs off
+constexpr double kMostOnRoad_mm = 1.0;                // the rest runs off
 constexpr double kChaseBehind_m = 6.5, kChaseUp_m = 2.3;
 
 std::vector<glm::dvec3> routePoints(const RoadView& road) {
@@ -29,7 +29,8 @@ glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm
 
 }  // namespace
 
-Simulation::Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin, glm::ivec2 size_px)
+Simulation::Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin,
+                       glm::ivec2 size_px)
     : camera(scenario.camera),
       scenario_(scenario),
       car_(car),
@@ -43,13 +44,16 @@ Simulation::Simulation(const Scenario& scenario, const CarView& car, const RoadV
   free_camera.position_m = driver_.state().position_m + glm::dvec3(-8.0, 3.0, 2.5);
 }
 
-double Simulation::timeS() const { return static_cast<double>(hostTickNs(std::max<int64_t>(tick_, 0)) - prewarm_ns_) * 1e-9; }
+double Simulation::timeS() const {
+  return static_cast<double>(hostTickNs(std::max<int64_t>(tick_, 0)) - prewarm_ns_) * 1e-9;
+}
 
 Weather Simulation::weather() const {
   const double t = std::max(0.0, timeS());
   Weather w;
   w.rain_mm_h = overrides.rain_mm_h.value_or(scenario_.rain_mm_h.at(t));
-  w.wind_mps = overrides.wind_mps.value_or(glm::dvec3(scenario_.wind_x_mps.at(t), scenario_.wind_y_mps.at(t), 0.0));
+  w.wind_mps =
+      overrides.wind_mps.value_or(glm::dvec3(scenario_.wind_x_mps.at(t), scenario_.wind_y_mps.at(t), 0.0));
   w.temperature_c = scenario_.temperature_c.at(t);
   w.humidity = scenario_.humidity.at(t);
   w.visibility_m = scenario_.visibility_m.at(t);
@@ -69,25 +73,31 @@ void Simulation::tick() {
   ++tick_;
   const double t = timeS();
   if (t > 0.0) {
-    if (overrides.controls) driver_.tick(*overrides.controls);
-    else driver_.tick();
+    if (overrides.controls)
+      driver_.tick(*overrides.controls);
+    else
+      driver_.tick();
   }
   motor_.setMode(overrides.wipers.value_or(wiperModeAt(scenario_, std::max(0.0, t))));
   const int64_t begin_ns = hostTickNs(tick_ - 1);
   for (const WiperKnotShare& knot : motor_.tick()) {
-    const int64_t at_ns = std::min(begin_ns + static_cast<int64_t>(knot.seconds_into_tick * 1e9), hostTickNs(tick_));
+    const int64_t at_ns =
+        std::min(begin_ns + static_cast<int64_t>(knot.seconds_into_tick * 1e9), hostTickNs(tick_));
     for (size_t i = 0; i < car_.wipers.size(); ++i) {
-      knots_.push_back({at_ns, static_cast<uint32_t>(i + 1), 0, knot.share * static_cast<double>(car_.wipers[i].sweep_rad)});
+      knots_.push_back({at_ns, static_cast<uint32_t>(i + 1), 0,
+                        knot.share * static_cast<double>(car_.wipers[i].sweep_rad)});
     }
   }
   const double rain_mm = weather().rain_mm_h / 3600.0 * kHostTickSeconds;
-  water_on_road_mm_ = std::clamp(water_on_road_mm_ + rain_mm - kRoadDries_mm_per_s * kHostTickSeconds, 0.0, kMostOnRoad_mm);
+  water_on_road_mm_ =
+      std::clamp(water_on_road_mm_ + rain_mm - kRoadDries_mm_per_s * kHostTickSeconds, 0.0, kMostOnRoad_mm);
   if (adapting_luminance && tick_ % kAdaptationTicks == 0) {
     const double here = std::log(std::max(1e-4, adapting_luminance(eyeOf(driver_.state()).position_m)));
     if (!adapted_) day_log_luminance_ = here;
     day_log_luminance_ = std::max(day_log_luminance_, here);
     const double target = std::lerp(day_log_luminance_, here, kAdaptedShare);
-    const double share = adapted_ ? 1.0 - std::exp(-kHostTickSeconds * kAdaptationTicks / kAdaptation_s) : 1.0;
+    const double share =
+        adapted_ ? 1.0 - std::exp(-kHostTickSeconds * kAdaptationTicks / kAdaptation_s) : 1.0;
     log_luminance_ += (target - log_luminance_) * share;
     adapted_ = true;
   }
@@ -116,7 +126,8 @@ void Simulation::tell() {
 }
 
 CarState Simulation::carAt(int64_t time_ns) const {
-  const double since_s = static_cast<double>(pluginTime(time_ns) - hostTickNs(std::max<int64_t>(tick_, 0))) * 1e-9;
+  const double since_s =
+      static_cast<double>(pluginTime(time_ns) - hostTickNs(std::max<int64_t>(tick_, 0))) * 1e-9;
   CarState car = driver_.at(timeS() <= 0.0 ? 0.0 : since_s);
   if (timeS() <= 0.0) car.velocity_mps = car.angular_velocity_radps = glm::dvec3(0.0);
   return car;
@@ -138,12 +149,15 @@ Eye Simulation::eyeOf(const CarState& car) const {
     eye.inside = true;
   } else if (camera == "free") {
     eye.position_m = free_camera.position_m;
-    forward = {std::cos(free_camera.yaw_rad) * std::cos(free_camera.pitch_rad), std::sin(free_camera.yaw_rad) * std::cos(free_camera.pitch_rad),
+    forward = {std::cos(free_camera.yaw_rad) * std::cos(free_camera.pitch_rad),
+               std::sin(free_camera.yaw_rad) * std::cos(free_camera.pitch_rad),
                std::sin(free_camera.pitch_rad)};
     up = {0.0, 0.0, 1.0};
   } else {
     // Seen from around the car, level with the horizon: at it from behind, the front, the left side.
-    const glm::dvec3 place = camera == "front" ? glm::dvec3(6.0, 1.3, 1.7) : camera == "side" ? glm::dvec3(1.2, 4.5, 1.5) : glm::dvec3(-kChaseBehind_m, 0.0, kChaseUp_m);
+    const glm::dvec3 place = camera == "front"  ? glm::dvec3(6.0, 1.3, 1.7)
+                             : camera == "side" ? glm::dvec3(1.2, 4.5, 1.5)
+                                                : glm::dvec3(-kChaseBehind_m, 0.0, kChaseUp_m);
     const glm::dvec3 at = camera == "outside" ? glm::dvec3(3.0, 0.0, 1.1) : glm::dvec3(1.4, 0.0, 0.85);
     const glm::dvec3 heading = car.orientation * glm::dvec3(1.0, 0.0, 0.0);
     const glm::dquat level = glm::angleAxis(std::atan2(heading.y, heading.x), glm::dvec3(0.0, 0.0, 1.0));
@@ -151,7 +165,9 @@ Eye Simulation::eyeOf(const CarState& car) const {
     forward = glm::normalize(car.position_m + level * at - eye.position_m);
     up = {0.0, 0.0, 1.0};
   }
-  eye.velocity_mps = camera == "free" ? glm::dvec3(0.0) : car.velocity_mps + glm::cross(car.angular_velocity_radps, eye.position_m - car.position_m);
+  eye.velocity_mps = camera == "free" ? glm::dvec3(0.0)
+                                      : car.velocity_mps + glm::cross(car.angular_velocity_radps,
+                                                                      eye.position_m - car.position_m);
   eye.view.eye_from_world = lookAlong(eye.position_m, forward, up);
   eye.view.projection = reversedPerspective(fov_rad, size_px_);
   return eye;

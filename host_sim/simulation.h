@@ -1,4 +1,5 @@
-// The host's world in motion: car, wipers, weather and eye at fixed ticks, told to the plugin. No drawing here.
+// The host's world in motion: car, wipers, weather and eye at fixed ticks, told to the plugin. No drawing
+// here.
 #pragma once
 
 #include <cmath>
@@ -48,7 +49,8 @@ struct Overrides {
 
 class Simulation {
  public:
-  Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin, glm::ivec2 size_px);
+  Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin,
+             glm::ivec2 size_px);
 
   // Luminance the eye adapts to, for a place; asked ten times a simulated second.
   std::function<double(glm::dvec3)> adapting_luminance;
@@ -56,9 +58,11 @@ class Simulation {
   std::string camera;
   FreeCamera free_camera;
 
-  // Runs the host's ticks up to a moment, told to the plugin at its next update. The first call also runs the scenario's prewarm.
+  // Runs the host's ticks up to a moment, told to the plugin at its next update. The first call also runs the
+  // scenario's prewarm.
   void advance(int64_t time_ns);
-  // As the scenario's clock says, from 0 at the first picture; the plugin's clock is ahead of it by the prewarm.
+  // As the scenario's clock says, from 0 at the first picture; the plugin's clock is ahead of it by the
+  // prewarm.
   int64_t pluginTime(int64_t time_ns) const { return time_ns + prewarm_ns_; }
 
   CarState carAt(int64_t time_ns) const;
@@ -90,7 +94,8 @@ class Simulation {
   int64_t tick_ = -1;  // of the plugin's clock; -1: not begun
   std::vector<rg_wiper_knot> knots_;
   double water_on_road_mm_ = 0.0;
-  double log_luminance_ = 0.0, day_log_luminance_ = 0.0;  // natural logarithms of 1000 cd/m^2; the brightest met so far
+  double log_luminance_ = 0.0,
+         day_log_luminance_ = 0.0;  // natural logarithms of 1000 cd/m^2; the brightest met so far
   bool adapted_ = false;
   std::string camera_before_;
   bool cut_ = true;

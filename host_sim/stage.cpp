@@ -11,11 +11,12 @@ namespace host {
 namespace {
 
 constexpr double kBrakeLights_mps2 = -0.7;  // coasting does not light them
-constexpr float kOpenPlace = 0.9F;           // a place that sees so much of the sky is lit as the open field is
+constexpr float kOpenPlace = 0.9F;  // a place that sees so much of the sky is lit as the open field is
 
 bool hasModels(const std::filesystem::path& folder) {
   std::error_code error;
-  return std::filesystem::is_directory(folder / "scenarios", error) && std::filesystem::is_directory(folder / "models", error);
+  return std::filesystem::is_directory(folder / "scenarios", error) &&
+         std::filesystem::is_directory(folder / "models", error);
 }
 
 std::optional<std::filesystem::path> upwards(std::filesystem::path folder) {
@@ -26,7 +27,8 @@ std::optional<std::filesystem::path> upwards(std::filesystem::path folder) {
   return std::nullopt;
 }
 
-// The light about a place that sees the share `open` of the sky: water on the glass of a car in a tunnel is not lit by the day outside.
+// The light about a place that sees the share `open` of the sky: water on the glass of a car in a tunnel is
+// not lit by the day outside.
 LightSummary lightAt(LightSummary light, float open) {
   light.sky_radiance *= open;
   light.ground_radiance *= open;
@@ -38,9 +40,11 @@ LightSummary lightAt(LightSummary light, float open) {
 
 std::filesystem::path projectRoot() {
   std::error_code error;
-  if (const auto root = upwards(std::filesystem::read_symlink("/proc/self/exe", error).parent_path())) return *root;
+  if (const auto root = upwards(std::filesystem::read_symlink("/proc/self/exe", error).parent_path()))
+    return *root;
   if (const auto root = upwards(std::filesystem::current_path(error))) return *root;
-  throw InputError("neither this program nor the working folder lies below a folder with scenarios/ and models/");
+  throw InputError(
+      "neither this program nor the working folder lies below a folder with scenarios/ and models/");
 }
 
 Scenario chosenScenario(const Options& options) {
@@ -61,11 +65,15 @@ Models loadModels(const Scenario& scenario) {
 }
 
 Stage::Stage(const Options& options, const Scenario& scenario, Models models, Context& context)
-    : scenario_(scenario), context_(context), car_scene_(std::move(models.car)), road_scene_(std::move(models.road)) {
+    : scenario_(scenario),
+      context_(context),
+      car_scene_(std::move(models.car)),
+      road_scene_(std::move(models.road)) {
   if (car_scene_) car_ = carView(*car_scene_);
   if (road_scene_) road_ = roadView(*road_scene_);
   renderer_ = std::make_unique<Renderer>(context);
-  if (road_scene_) road_instance_ = renderer_->addInstance(renderer_->addScene(*road_scene_, SceneFrame::Road));
+  if (road_scene_)
+    road_instance_ = renderer_->addInstance(renderer_->addScene(*road_scene_, SceneFrame::Road));
   if (car_scene_) {
     car_instance_ = renderer_->addInstance(renderer_->addScene(*car_scene_, SceneFrame::Car));
     poses_ = car_scene_->restPoses();
@@ -101,7 +109,9 @@ void Stage::prewarm() {
   renderer_->beginFrame(sky(0), simulation_->eyeAt(0).position_m);
   for (int64_t t = -whole_ns; t < 0; t += kPiece_ns) {
     update(t);
-    if (isatty(2) != 0 && t % 1'000'000'000 == 0) std::fprintf(stderr, "\rrain before the first picture: %lld s ", static_cast<long long>(-t / 1'000'000'000));
+    if (isatty(2) != 0 && t % 1'000'000'000 == 0)
+      std::fprintf(stderr, "\rrain before the first picture: %lld s ",
+                   static_cast<long long>(-t / 1'000'000'000));
   }
   update(0);
 }
@@ -113,7 +123,8 @@ Sky Stage::sky(int64_t time_ns) const {
   sky.visibility_m = w.visibility_m;
   sky.wetness = simulation_->wetness();
   sky.time_s = static_cast<double>(time_ns) * 1e-9;
-  const double up = glm::radians(scenario_.sun_elevation_deg), round = glm::radians(scenario_.sun_azimuth_deg);
+  const double up = glm::radians(scenario_.sun_elevation_deg),
+               round = glm::radians(scenario_.sun_azimuth_deg);
   sky.to_sun = {std::cos(up) * std::cos(round), std::cos(up) * std::sin(round), std::sin(up)};
   return sky;
 }
@@ -121,14 +132,20 @@ Sky Stage::sky(int64_t time_ns) const {
 void Stage::pose(int64_t time_ns) {
   if (!car_instance_) return;
   const CarState car = simulation_->carAt(time_ns);
-  for (const Animation& a : car_scene_->animations) animate(a, static_cast<float>(std::fmod(static_cast<double>(time_ns) * 1e-9, std::max(1e-3F, a.duration_s))), poses_);
-  for (const WiperView& w : car_.wipers) turnNode(*car_scene_, w.node, {0.0F, 1.0F, 0.0F}, w.sweep_rad * static_cast<float>(simulation_->wiperShare()), poses_);
+  for (const Animation& a : car_scene_->animations)
+    animate(a,
+            static_cast<float>(std::fmod(static_cast<double>(time_ns) * 1e-9, std::max(1e-3F, a.duration_s))),
+            poses_);
+  for (const WiperView& w : car_.wipers)
+    turnNode(*car_scene_, w.node, {0.0F, 1.0F, 0.0F},
+             w.sweep_rad * static_cast<float>(simulation_->wiperShare()), poses_);
   if (car_.steering_wheel) {
     const float angle = static_cast<float>(car.steering_rad) * car_.steering_wheel->ratio;
     turnNode(*car_scene_, car_.steering_wheel->node, {0.0F, 1.0F, 0.0F}, angle, poses_);
   }
   for (const WheelView& w : car_.wheels) {
-    const auto spin = static_cast<float>(std::fmod(car.driven_m / static_cast<double>(w.radius_m), 2.0 * glm::pi<double>()));
+    const auto spin = static_cast<float>(
+        std::fmod(car.driven_m / static_cast<double>(w.radius_m), 2.0 * glm::pi<double>()));
     turnNode(*car_scene_, w.node, {1.0F, 0.0F, 0.0F}, spin, poses_);
   }
   Placement placement;
@@ -137,7 +154,8 @@ void Stage::pose(int64_t time_ns) {
   placement.poses = poses_;
   placement.lamp_levels[static_cast<size_t>(LightRole::Head)] = scenario_.headlights ? 1.0F : 0.0F;
   placement.lamp_levels[static_cast<size_t>(LightRole::Tail)] = scenario_.headlights ? 1.0F : 0.0F;
-  placement.lamp_levels[static_cast<size_t>(LightRole::Brake)] = car.acceleration_mps2 < kBrakeLights_mps2 ? 1.0F : 0.0F;
+  placement.lamp_levels[static_cast<size_t>(LightRole::Brake)] =
+      car.acceleration_mps2 < kBrakeLights_mps2 ? 1.0F : 0.0F;
   renderer_->place(*car_instance_, placement);
 }
 
@@ -150,11 +168,14 @@ void Stage::draw(int64_t time_ns, const Target& target, uint32_t framebuffer, in
   const LightSummary light = renderer_->lighting();
   plugin_->capture(*renderer_, view, captures);
   const bool inside = eye.inside && car_instance_.has_value();
-  if (inside || !car_instance_) renderer_->drawWorld(eye.view, target);
-  else renderer_->drawWorld(eye.view, target, std::span(&*car_instance_, 1));
+  if (inside || !car_instance_)
+    renderer_->drawWorld(eye.view, target);
+  else
+    renderer_->drawWorld(eye.view, target, std::span(&*car_instance_, 1));
   if (inside) renderer_->drawParts(eye.view, target, *car_instance_, kBody | kWipers);
   plugin_->drawWorld(plugin_ns, view, target, light);
-  plugin_->drawGlass(plugin_ns, view, target, lightAt(light, static_cast<float>(renderer_->skyVisibility(eye.position_m))));
+  plugin_->drawGlass(plugin_ns, view, target,
+                     lightAt(light, static_cast<float>(renderer_->skyVisibility(eye.position_m))));
   plugin_->drawFinish(plugin_ns, view, target, light);
   renderer_->toneMap(target, framebuffer, exposureFor(simulation_->adaptedLuminance()));
 }

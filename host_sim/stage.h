@@ -1,4 +1,5 @@
-// All that a picture needs, put together once: context, models, renderer, plugin, simulation. And the order of a picture.
+// All that a picture needs, put together once: context, models, renderer, plugin, simulation. And the order
+// of a picture.
 #pragma once
 
 #include <memory>
@@ -17,13 +18,15 @@
 
 namespace host {
 
-// Where scenarios/ and models/ are: the nearest folder above this program (or above the working folder) that has both.
+// Where scenarios/ and models/ are: the nearest folder above this program (or above the working folder) that
+// has both.
 std::filesystem::path projectRoot();
 
 // Scenario and models as the options say. Throws InputError or SceneError.
 Scenario chosenScenario(const Options& options);
 
-// The files of a scenario, read and checked. Throws SceneError. Needs no context, so that a broken file is told of before a window opens.
+// The files of a scenario, read and checked. Throws SceneError. Needs no context, so that a broken file is
+// told of before a window opens.
 struct Models {
   std::optional<Scene> car, road;
 };
@@ -37,8 +40,8 @@ class Stage {
   void update(int64_t time_ns);
   // Scenario's prewarm, in pieces, with a progress line.
   void prewarm();
-  // Draws the moment into `target` and tone-maps it into `framebuffer`. At most `captures` faces of the surroundings are drawn anew for the
-  // glass: 1 in a running picture, all 6 for a single one.
+  // Draws the moment into `target` and tone-maps it into `framebuffer`. At most `captures` faces of the
+  // surroundings are drawn anew for the glass: 1 in a running picture, all 6 for a single one.
   void draw(int64_t time_ns, const Target& target, uint32_t framebuffer, int captures = 1);
   void fillReport(Report& report);
 

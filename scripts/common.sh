@@ -9,7 +9,7 @@ packages=(
   libglm-dev libglfw3-dev libtinygltf-dev python3-glad libegl-dev libgl-dev libpng-dev libimgui-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev
   libegl1 libegl-mesa0 libgl1 libglx-mesa0 libgl1-mesa-dri
-  ffmpeg xvfb python3 python3-numpy imagemagick
+  libx11-dev ffmpeg xvfb python3 python3-numpy imagemagick
 )
 lint_packages=(clang-format clang-tidy)
 model_packages=(blender python3-numpy)

@@ -1,4 +1,5 @@
-// A value over something that grows (time, way): linear between given points, held before the first and after the last.
+// A value over something that grows (time, way): linear between given points, held before the first and after
+// the last.
 #pragma once
 
 #include <algorithm>

@@ -12,10 +12,14 @@ constexpr double kStep_m = 0.5;
 constexpr double kBend_m = 6.0;  // half the length over which curvature is averaged: about 0.5 s at 90 km/h
 
 // Barry & Goldman 1988: centripetal Catmull-Rom between b and c.
-glm::dvec3 catmullRom(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, double s) {
-  const double ta = 0.0, tb = ta + std::sqrt(glm::distance(a, b)), tc = tb + std::sqrt(glm::distance(b, c)), td = tc + std::sqrt(glm::distance(c, d));
+glm::dvec3 catmullRom(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
+                      double s) {
+  const double ta = 0.0, tb = ta + std::sqrt(glm::distance(a, b)), tc = tb + std::sqrt(glm::distance(b, c)),
+               td = tc + std::sqrt(glm::distance(c, d));
   const double t = std::lerp(tb, tc, s);
-  const auto blend = [t](const glm::dvec3& p, const glm::dvec3& q, double tp, double tq) { return glm::mix(p, q, (t - tp) / (tq - tp)); };
+  const auto blend = [t](const glm::dvec3& p, const glm::dvec3& q, double tp, double tq) {
+    return glm::mix(p, q, (t - tp) / (tq - tp));
+  };
   const glm::dvec3 ab = blend(a, b, ta, tb), bc = blend(b, c, tb, tc), cd = blend(c, d, tc, td);
   const glm::dvec3 abc = blend(ab, bc, ta, tc), bcd = blend(bc, cd, tb, td);
   return blend(abc, bcd, tb, tc);
@@ -31,8 +35,10 @@ std::vector<glm::dvec3> smoothLine(const std::vector<glm::dvec3>& p, bool closed
   };
   std::vector<glm::dvec3> line;
   for (long i = 0; i < (closed ? n : n - 1); ++i) {
-    const int pieces = std::max(2, static_cast<int>(std::ceil(glm::distance(at(i), at(i + 1)) / (kStep_m / 2))));
-    for (int k = 0; k < pieces; ++k) line.push_back(catmullRom(at(i - 1), at(i), at(i + 1), at(i + 2), static_cast<double>(k) / pieces));
+    const int pieces =
+        std::max(2, static_cast<int>(std::ceil(glm::distance(at(i), at(i + 1)) / (kStep_m / 2))));
+    for (int k = 0; k < pieces; ++k)
+      line.push_back(catmullRom(at(i - 1), at(i), at(i + 1), at(i + 2), static_cast<double>(k) / pieces));
   }
   line.push_back(closed ? p.front() : p.back());
   return line;
@@ -61,7 +67,8 @@ std::vector<glm::dvec3> evenly(const std::vector<glm::dvec3>& line) {
 Route::Route(const std::vector<glm::dvec3>& points_m, bool closed) : closed_(closed) {
   if (points_m.size() < 2) throw std::invalid_argument("a route needs two points");
   for (size_t i = 1; i < points_m.size(); ++i) {
-    if (glm::distance(points_m[i - 1], points_m[i]) < 1e-3) throw std::invalid_argument("a route has two points in the same place");
+    if (glm::distance(points_m[i - 1], points_m[i]) < 1e-3)
+      throw std::invalid_argument("a route has two points in the same place");
   }
   table_ = evenly(smoothLine(points_m, closed));
   if (table_.size() < 3) throw std::invalid_argument("a route is shorter than a metre");

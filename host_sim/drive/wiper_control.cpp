@@ -19,10 +19,14 @@ WiperMode wiperModeFrom(std::string_view text) {
 
 const char* wiperModeName(WiperMode mode) {
   switch (mode) {
-    case WiperMode::off: return "off";
-    case WiperMode::intermittent: return "intermittent";
-    case WiperMode::slow: return "1";
-    case WiperMode::fast: return "2";
+    case WiperMode::off:
+      return "off";
+    case WiperMode::intermittent:
+      return "intermittent";
+    case WiperMode::slow:
+      return "1";
+    case WiperMode::fast:
+      return "2";
   }
   return "off";
 }

@@ -1,4 +1,5 @@
-// The wiper motor: from a mode to the share of the sweep over time. Modes change where a cycle ends, as real motors park.
+// The wiper motor: from a mode to the share of the sweep over time. Modes change where a cycle ends, as real
+// motors park.
 #pragma once
 
 #include <string_view>

@@ -12,7 +12,8 @@ constexpr GLenum kIndexType = sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UN
 
 }  // namespace
 
-ImguiGl::ImguiGl(const Context& context) : gl_(context.gl()), program_(gl_, {"overlay.vert"}, {"overlay.frag"}) {
+ImguiGl::ImguiGl(const Context& context)
+    : gl_(context.gl()), program_(gl_, {"overlay.vert"}, {"overlay.frag"}) {
   ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   makeLetters();
   makeVertexArray();

@@ -18,8 +18,9 @@ constexpr double kGreeting_s = 10.0;
 constexpr double kSlowEvery_s = 0.5;
 constexpr float kLetter_px = 13.0F;  // what ImGui's own font is drawn for
 constexpr float kMargin_px = 12.0F;
-constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize |
+                                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
 constexpr ImGuiSliderFlags kSlider = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
 constexpr double kWideRange = 50.0;  // from here on a slider goes by ratio
 
@@ -38,13 +39,16 @@ void setStyle(float scale) {
 // A panel in an upper corner, no larger than the window. `side`: 0 left, 1 right.
 void beginPanel(const char* name, float side) {
   const ImVec2 all = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({side > 0.0F ? all.x - kMargin_px : kMargin_px, kMargin_px}, ImGuiCond_Always, {side, 0.0F});
+  ImGui::SetNextWindowPos({side > 0.0F ? all.x - kMargin_px : kMargin_px, kMargin_px}, ImGuiCond_Always,
+                          {side, 0.0F});
   const ImVec2 most(std::max(all.x - 2.0F * kMargin_px, 1.0F), std::max(all.y - 2.0F * kMargin_px, 1.0F));
   ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, most);
   ImGui::Begin(name, nullptr, kPanel);
 }
 
-bool beginTable(const char* name, int columns) { return ImGui::BeginTable(name, columns, ImGuiTableFlags_SizingFixedFit); }
+bool beginTable(const char* name, int columns) {
+  return ImGui::BeginTable(name, columns, ImGuiTableFlags_SizingFixedFit);
+}
 
 [[gnu::format(printf, 1, 2)]] void cell(const char* format, ...) {
   std::va_list values;
@@ -63,7 +67,8 @@ bool beginTable(const char* name, int columns) { return ImGui::BeginTable(name, 
   va_end(values);
 }
 
-bool slider(const char* name, double& value, double least, double most, const char* format, ImGuiSliderFlags flags = 0) {
+bool slider(const char* name, double& value, double least, double most, const char* format,
+            ImGuiSliderFlags flags = 0) {
   return ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &least, &most, format, kSlider | flags);
 }
 
@@ -102,7 +107,8 @@ void wiperChoice(Overrides& overrides) {
 
 bool parameterSlider(rg_parameter& p) {
   const bool wide = p.minimum > 0.0 && p.maximum / p.minimum >= kWideRange;
-  bool changed = slider(p.name, p.value, p.minimum, p.maximum, formatWith(p.unit).c_str(), wide ? ImGuiSliderFlags_Logarithmic : 0);
+  bool changed = slider(p.name, p.value, p.minimum, p.maximum, formatWith(p.unit).c_str(),
+                        wide ? ImGuiSliderFlags_Logarithmic : 0);
   if (!ImGui::IsItemHovered()) return changed;
   ImGui::SetTooltip("%s\npreset %g; double click sets it", p.text, p.preset);
   if (!ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) return changed;
@@ -114,7 +120,8 @@ bool parameterSlider(rg_parameter& p) {
 
 void Overlay::DestroyImgui::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 
-Overlay::Overlay(const Context& context, float text_scale) : imgui_(ImGui::CreateContext()), greeting_left_s_(kGreeting_s) {
+Overlay::Overlay(const Context& context, float text_scale)
+    : imgui_(ImGui::CreateContext()), greeting_left_s_(kGreeting_s) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is kept from run to run
   const float scale = std::clamp(text_scale, 1.0F, 4.0F);
@@ -129,7 +136,9 @@ Overlay::~Overlay() = default;
 
 void Overlay::toggle() { shown_ = shown_ == Shown::all ? Shown::nothing : Shown::all; }
 bool Overlay::wantsMouse() const { return shown_ != Shown::nothing && ImGui::GetIO().WantCaptureMouse; }
-void Overlay::moveCursor(glm::dvec2 at_px) { ImGui::GetIO().MousePos = {static_cast<float>(at_px.x), static_cast<float>(at_px.y)}; }
+void Overlay::moveCursor(glm::dvec2 at_px) {
+  ImGui::GetIO().MousePos = {static_cast<float>(at_px.x), static_cast<float>(at_px.y)};
+}
 void Overlay::pressButton(bool down) { ImGui::GetIO().MouseDown[0] = down; }
 void Overlay::scroll(double steps) { ImGui::GetIO().MouseWheel += static_cast<float>(steps); }
 
@@ -141,7 +150,8 @@ void Overlay::refresh(Stage& stage, double seconds) {
   slow_.parameters = stage.plugin().parameters();
   const auto panes = stage.plugin().paneStats();
   if (panes.empty()) return;
-  const auto screen = std::ranges::find_if(panes, [](const auto& p) { return p.first.find("windscreen") != std::string::npos; });
+  const auto screen = std::ranges::find_if(
+      panes, [](const auto& p) { return p.first.find("windscreen") != std::string::npos; });
   std::tie(slow_.pane, slow_.water) = screen == panes.end() ? panes.front() : *screen;
 }
 
@@ -177,7 +187,8 @@ void Overlay::drawStatus(Stage& stage, double fps, const char* note) const {
   Simulation& sim = stage.simulation();
   if (*note != '\0') ImGui::TextColored({1.0F, 0.8F, 0.4F, 1.0F}, "%s", note);
   if (!beginTable("status", 2)) return;
-  row("speed", "%.0f km/h%s", sim.driver().state().speed_mps * 3.6, sim.overrides.controls ? ", by hand" : "");
+  row("speed", "%.0f km/h%s", sim.driver().state().speed_mps * 3.6,
+      sim.overrides.controls ? ", by hand" : "");
   row("rain", "%.1f mm/h", sim.weather().rain_mm_h);
   windRow(sim);
   row("wipers", "%s", wiperModeName(sim.wiperMode()));
@@ -195,7 +206,9 @@ void Overlay::drawKeys() const {
 }
 
 void Overlay::drawWater() const {
-  if (slow_.pane.empty() || !ImGui::CollapsingHeader(("water on " + slow_.pane).c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (slow_.pane.empty() ||
+      !ImGui::CollapsingHeader(("water on " + slow_.pane).c_str(), ImGuiTreeNodeFlags_DefaultOpen))
+    return;
   if (!beginTable("water", 4)) return;
   const rg_pane_stats& w = slow_.water;
   row("caught", "%.1f mL ", w.caught_ml);
@@ -210,13 +223,17 @@ void Overlay::drawWater() const {
 }
 
 void Overlay::drawStages() const {
-  if (!ImGui::CollapsingHeader("plugin's stages, median ms", ImGuiTreeNodeFlags_DefaultOpen) || !beginTable("stages", 3)) return;
+  if (!ImGui::CollapsingHeader("plugin's stages, median ms", ImGuiTreeNodeFlags_DefaultOpen) ||
+      !beginTable("stages", 3))
+    return;
   row("", "CPU");
   cell("GPU");
   for (const rg_stage_stats& s : slow_.stages) {
     row(s.name, "%.3f ", s.cpu_ms_p50);
-    if (s.gpu != 0) cell("%.3f", s.gpu_ms_p50);
-    else ImGui::TableNextColumn();
+    if (s.gpu != 0)
+      cell("%.3f", s.gpu_ms_p50);
+    else
+      ImGui::TableNextColumn();
   }
   ImGui::EndTable();
 }
@@ -225,7 +242,8 @@ void Overlay::drawWeather(Stage& stage) const {
   Simulation& sim = stage.simulation();
   if (!ImGui::CollapsingHeader("weather and wipers", ImGuiTreeNodeFlags_DefaultOpen)) return;
   double rain_mm_h = sim.weather().rain_mm_h;
-  if (slider("rain", rain_mm_h, 0.0, 200.0, "%.1f mm/h", ImGuiSliderFlags_Logarithmic)) sim.overrides.rain_mm_h = rain_mm_h;
+  if (slider("rain", rain_mm_h, 0.0, 200.0, "%.1f mm/h", ImGuiSliderFlags_Logarithmic))
+    sim.overrides.rain_mm_h = rain_mm_h;
   glm::dvec2 from_mps = windByCar(sim);
   bool blown = slider("wind from ahead", from_mps.x, -40.0, 40.0, "%.1f m/s");
   blown |= slider("wind from the left", from_mps.y, -40.0, 40.0, "%.1f m/s");
@@ -243,7 +261,8 @@ void Overlay::drawParameters(Stage& stage) {
   for (rg_parameter& p : slow_.parameters) {
     if (group != p.group) {
       group = p.group;
-      open = ImGui::CollapsingHeader(("plugin: " + std::string(group)).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+      open =
+          ImGui::CollapsingHeader(("plugin: " + std::string(group)).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
     }
     if (open && parameterSlider(p)) stage.plugin().setParameter(p.name, p.value);
   }

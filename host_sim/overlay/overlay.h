@@ -32,7 +32,8 @@ class Overlay {
   void pressButton(bool down);
   void scroll(double steps);
 
-  // Over the picture in framebuffer 0. Sliders change `stage`. `seconds` since the last picture, `note` is a line on top, or empty.
+  // Over the picture in framebuffer 0. Sliders change `stage`. `seconds` since the last picture, `note` is a
+  // line on top, or empty.
   void draw(Stage& stage, glm::ivec2 size_px, double seconds, double fps, const char* note);
 
  private:

@@ -34,8 +34,8 @@ std::string Context::text(GLenum name) const {
   return found ? reinterpret_cast<const char*>(found) : "unknown";
 }
 
-void GLAD_API_PTR Context::onMessage(GLenum, GLenum type, GLuint id, GLenum severity, GLsizei, const GLchar* text,
-                                     const void* user) {
+void GLAD_API_PTR Context::onMessage(GLenum, GLenum type, GLuint id, GLenum severity, GLsizei,
+                                     const GLchar* text, const void* user) {
   // Performance hints and notifications are the driver's talk; errors, undefined and deprecated use are ours.
   const bool ours = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
                     type == GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR || severity == GL_DEBUG_SEVERITY_HIGH;

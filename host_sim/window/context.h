@@ -1,4 +1,5 @@
-// An OpenGL 4.5 core context, made current on the thread that made it: by EGL without a display, or by GLFW in a window.
+// An OpenGL 4.5 core context, made current on the thread that made it: by EGL without a display, or by GLFW
+// in a window.
 #pragma once
 
 #include <glad/gl.h>
@@ -10,7 +11,8 @@
 
 namespace host {
 
-/// No OpenGL 4.5 is to be had; what() says what was found, e.g. "OpenGL 4.5 is needed; found OpenGL 3.3 by Mesa".
+/// No OpenGL 4.5 is to be had; what() says what was found, e.g. "OpenGL 4.5 is needed; found OpenGL 3.3 by
+/// Mesa".
 struct NoGl45 : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,7 +27,8 @@ class Context {
   const GladGLContext& gl() const { return gl_; }
   /// Loader for the plugin (rg_gl_info::get_proc with get_proc_user = this context).
   static void* getProc(void* context, const char* name);
-  /// GL errors the driver told since the context was made, by KHR_debug; their first texts go to standard error.
+  /// GL errors the driver told since the context was made, by KHR_debug; their first texts go to standard
+  /// error.
   std::uint64_t glErrors() const { return errors_->count; }
   std::string vendor() const { return text(GL_VENDOR); }
   std::string rendererName() const { return text(GL_RENDERER); }
@@ -49,8 +52,8 @@ class Context {
   std::unique_ptr<Errors> errors_ = std::make_unique<Errors>();
 };
 
-/// A context without display: a GPU by EGL's device platform, else Mesa's surfaceless platform (software). `debug` has the driver check
-/// and tell errors at once. Throws NoGl45.
+/// A context without display: a GPU by EGL's device platform, else Mesa's surfaceless platform (software).
+/// `debug` has the driver check and tell errors at once. Throws NoGl45.
 std::unique_ptr<Context> makeHeadlessContext(bool debug = true);
 
 }  // namespace host

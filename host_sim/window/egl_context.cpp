@@ -31,7 +31,8 @@ std::vector<EGLDisplay> displays() {
     EGLint count = 0;
     if (query_devices != nullptr) query_devices(16, devices, &count);
     for (EGLint i = 0; i < count; ++i) {
-      const bool is_software = query_string && has(query_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
+      const bool is_software =
+          query_string && has(query_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
       (is_software ? software : found).push_back(get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
     }
   }
@@ -71,9 +72,15 @@ class EglContext final : public Context {
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!eglChooseConfig(display_, wanted, &config, 1, &count) || count == 0) config = nullptr;
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION, minor,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG, debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                 major,
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 minor,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_DEBUG,
+                                 debug ? EGL_TRUE : EGL_FALSE,
+                                 EGL_NONE};
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, attributes);
     return context_ != EGL_NO_CONTEXT;
   }
@@ -97,7 +104,8 @@ class EglContext final : public Context {
 std::unique_ptr<Context> makeHeadlessContext(bool debug) {
   std::string why = "OpenGL 4.5 is needed; found no EGL that draws without a display";
   for (EGLDisplay display : displays()) {
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API)) continue;
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
+      continue;
     try {
       return std::make_unique<EglContext>(display, debug);
     } catch (const NoGl45& found) {

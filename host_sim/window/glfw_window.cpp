@@ -75,7 +75,9 @@ class GlfwWindow final : public Window {
       glfwMakeContextCurrent(window_);
       using GetString = const GLubyte*(GLAD_API_PTR*)(GLenum);
       const auto get_string = reinterpret_cast<GetString>(glfwGetProcAddress("glGetString"));
-      const auto text = [&](GLenum name) { return std::string(reinterpret_cast<const char*>(get_string(name))); };
+      const auto text = [&](GLenum name) {
+        return std::string(reinterpret_cast<const char*>(get_string(name)));
+      };
       if (get_string) found = "found OpenGL " + text(GL_VERSION) + " by " + text(GL_RENDERER);
       glfwDestroyWindow(window_);
     }
@@ -83,7 +85,9 @@ class GlfwWindow final : public Window {
     throw NoGl45("OpenGL 4.5 is needed; " + found);
   }
 
-  static GlfwWindow& self(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
+  static GlfwWindow& self(GLFWwindow* window) {
+    return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+  }
 
   void listen() {
     glfwSetWindowUserPointer(window_, this);
@@ -98,7 +102,9 @@ class GlfwWindow final : public Window {
       const auto& on_button = self(window).events.on_button;
       if (on_button && button == GLFW_MOUSE_BUTTON_LEFT) on_button(action == GLFW_PRESS);
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) { self(window).moved({x, y}); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+      self(window).moved({x, y});
+    });
   }
   /// `to` is in the window's own units, which are pixels only where the display does not scale.
   void moved(glm::dvec2 to) {
@@ -108,7 +114,8 @@ class GlfwWindow final : public Window {
     const glm::dvec2 by_px = to_px - cursor_px_;
     cursor_px_ = to_px;
     if (events.on_cursor) events.on_cursor(to_px);
-    if (events.on_drag && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) events.on_drag(by_px);
+    if (events.on_drag && glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
+      events.on_drag(by_px);
   }
 
   GLFWwindow* window_ = nullptr;

@@ -8,7 +8,8 @@
 
 namespace host {
 
-/// What a person does in the window. Keys are GLFW's (GLFW_KEY_...), given as `key`; `pressed` is false when it is let go.
+/// What a person does in the window. Keys are GLFW's (GLFW_KEY_...), given as `key`; `pressed` is false when
+/// it is let go.
 struct WindowEvents {
   std::function<void(int key, bool pressed)> on_key;
   std::function<void(glm::dvec2 at_px)> on_cursor;   ///< from the picture's upper left corner
@@ -36,7 +37,8 @@ class Window : public Context {
 /// Whether a display is there that a window could open on.
 bool hasDisplay();
 
-/// `debug` has the driver check and tell errors. Throws NoGl45, or std::runtime_error when no window can be had at all.
+/// `debug` has the driver check and tell errors. Throws NoGl45, or std::runtime_error when no window can be
+/// had at all.
 std::unique_ptr<Window> makeWindow(const std::string& title, glm::ivec2 size, bool debug = true);
 
 }  // namespace host

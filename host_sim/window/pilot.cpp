@@ -38,32 +38,65 @@ glm::dvec2 windByCar(Simulation& sim) {
 }
 
 void setWindByCar(Simulation& sim, glm::dvec2 from_mps) {
-  const glm::dvec2 wind_mps = heading(sim.driver().state()) * -glm::clamp(from_mps, -kMostWind_mps, kMostWind_mps);
+  const glm::dvec2 wind_mps =
+      heading(sim.driver().state()) * -glm::clamp(from_mps, -kMostWind_mps, kMostWind_mps);
   sim.overrides.wind_mps = glm::dvec3(wind_mps, 0.0);
 }
 
 void Pilot::onKey(int key) {
   Overrides& o = sim_.overrides;
   switch (key) {
-    case GLFW_KEY_ESCAPE: window_.close(); break;
-    case GLFW_KEY_F2: picture_ = true; break;
-    case GLFW_KEY_P: paused_ = !paused_; break;
-    case GLFW_KEY_C: nextCamera(); break;
-    case GLFW_KEY_R: changeRain(); break;
-    case GLFW_KEY_V: changeWind({kWindStep_mps, 0.0}); break;
-    case GLFW_KEY_B: changeWind({0.0, kWindStep_mps}); break;
-    case GLFW_KEY_0: o.rain_mm_h.reset(); o.wind_mps.reset(); break;
-    case GLFW_KEY_1: o.wipers = WiperMode::slow; break;
-    case GLFW_KEY_2: o.wipers = WiperMode::fast; break;
-    case GLFW_KEY_I: o.wipers = WiperMode::intermittent; break;
-    case GLFW_KEY_O: o.wipers = WiperMode::off; break;
-    case GLFW_KEY_M: o.wipers.reset(); break;
+    case GLFW_KEY_ESCAPE:
+      window_.close();
+      break;
+    case GLFW_KEY_F2:
+      picture_ = true;
+      break;
+    case GLFW_KEY_P:
+      paused_ = !paused_;
+      break;
+    case GLFW_KEY_C:
+      nextCamera();
+      break;
+    case GLFW_KEY_R:
+      changeRain();
+      break;
+    case GLFW_KEY_V:
+      changeWind({kWindStep_mps, 0.0});
+      break;
+    case GLFW_KEY_B:
+      changeWind({0.0, kWindStep_mps});
+      break;
+    case GLFW_KEY_0:
+      o.rain_mm_h.reset();
+      o.wind_mps.reset();
+      break;
+    case GLFW_KEY_1:
+      o.wipers = WiperMode::slow;
+      break;
+    case GLFW_KEY_2:
+      o.wipers = WiperMode::fast;
+      break;
+    case GLFW_KEY_I:
+      o.wipers = WiperMode::intermittent;
+      break;
+    case GLFW_KEY_O:
+      o.wipers = WiperMode::off;
+      break;
+    case GLFW_KEY_M:
+      o.wipers.reset();
+      break;
     case GLFW_KEY_UP:
     case GLFW_KEY_DOWN:
     case GLFW_KEY_LEFT:
-    case GLFW_KEY_RIGHT: takeOver(); break;
-    case GLFW_KEY_BACKSPACE: giveBack(); break;
-    default: break;
+    case GLFW_KEY_RIGHT:
+      takeOver();
+      break;
+    case GLFW_KEY_BACKSPACE:
+      giveBack();
+      break;
+    default:
+      break;
   }
 }
 
@@ -86,7 +119,9 @@ void Pilot::hold(double seconds) {
 
 bool Pilot::takePicture() { return std::exchange(picture_, false); }
 
-bool Pilot::shift() const { return window_.isDown(GLFW_KEY_LEFT_SHIFT) || window_.isDown(GLFW_KEY_RIGHT_SHIFT); }
+bool Pilot::shift() const {
+  return window_.isDown(GLFW_KEY_LEFT_SHIFT) || window_.isDown(GLFW_KEY_RIGHT_SHIFT);
+}
 
 double Pilot::along(int plus_key, int minus_key) const {
   return (window_.isDown(plus_key) ? 1.0 : 0.0) - (window_.isDown(minus_key) ? 1.0 : 0.0);
@@ -121,7 +156,9 @@ void Pilot::changeRain() {
   sim_.overrides.rain_mm_h = std::min(next, kMost_mm_h);
 }
 
-void Pilot::changeWind(glm::dvec2 from_mps) { setWindByCar(sim_, windByCar(sim_) + (shift() ? -from_mps : from_mps)); }
+void Pilot::changeWind(glm::dvec2 from_mps) {
+  setWindByCar(sim_, windByCar(sim_) + (shift() ? -from_mps : from_mps));
+}
 
 void Pilot::moveFree(double seconds) {
   FreeCamera& f = sim_.free_camera;

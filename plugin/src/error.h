@@ -17,6 +17,8 @@ class ApiError : public std::runtime_error {
   rg_result code_;
 };
 
-[[noreturn]] inline void refuse(const std::string& text, rg_result code = RG_ERROR_BAD_ARGUMENT) { throw ApiError(code, text); }
+[[noreturn]] inline void refuse(const std::string& text, rg_result code = RG_ERROR_BAD_ARGUMENT) {
+  throw ApiError(code, text);
+}
 
 }  // namespace rg

@@ -161,8 +161,10 @@ uint32_t Frame::prepareCaptures(const ViewState& view, int max_faces, const glas
   gl::StateGuard guarded = gl.guard(kDrawTouches);
   const gl::ScopedStage timed(timers_, stage_.captures);
   gl.look->settings.capture_size_px = static_cast<int>(settings().glass_capture_px);
-  if (draw) gl.look->capture(view.eyeFromWorld, max_faces, draw, {view.clip_zero_to_one, view.reversed_depth});
-  else gl.look->dropCapture();
+  if (draw)
+    gl.look->capture(view.eyeFromWorld, max_faces, draw, {view.clip_zero_to_one, view.reversed_depth});
+  else
+    gl.look->dropCapture();
   gl::throwOnError(gl.context->gl, "prepare_captures");
   return guarded.touched();
 }
@@ -223,8 +225,8 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
     gl.look->settings.blur = static_cast<float>(settings_.glass_blur);
     gl.look->settings.internal_reflections = static_cast<int>(settings_.glass_internal_reflections);
   }
-  const glass::LookView view{request.view.eyeFromWorld, request.view.clipFromEye, request.viewport_px, request.view.clip_zero_to_one,
-                             request.view.reversed_depth};
+  const glass::LookView view{request.view.eyeFromWorld, request.view.clipFromEye, request.viewport_px,
+                             request.view.clip_zero_to_one, request.view.reversed_depth};
   glass::LookTarget target = request.target;
   target.depth_texture = request.depth_texture;
   glass::LookLight light;
@@ -232,7 +234,8 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
   light.sky_radiance = request.lighting.sky_radiance;
   light.ground_radiance = request.lighting.ground_radiance;
   light.cabin_share = request.view.vehicle != 0 ? kCabinLight : 1.0f;
-  for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i) gl.look->drawPanes(seen, view, target, light);
+  for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i)
+    gl.look->drawPanes(seen, view, target, light);
   gl::throwOnError(gl.context->gl, "draw_glass");
   return guarded.touched();
 }

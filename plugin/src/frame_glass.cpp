@@ -1,4 +1,5 @@
-// What the glass is told each tick: from the world's weather and the vehicle's motion to rain, air and gravity as the pane feels them.
+// What the glass is told each tick: from the world's weather and the vehicle's motion to rain, air and
+// gravity as the pane feels them.
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +11,15 @@ namespace rg {
 namespace {
 
 constexpr glm::dvec3 kGravity_mps2{0.0, 0.0, -9.81};
-constexpr int64_t kShelterTicks = 6;  // shelter of a pane is asked anew 20 times a second: 1.4 m of way at 100 km/h
-constexpr int kSizeSteps = 16;        // quadrature of a class's mean volume
+constexpr int64_t kShelterTicks =
+    6;                          // shelter of a pane is asked anew 20 times a second: 1.4 m of way at 100 km/h
+constexpr int kSizeSteps = 16;  // quadrature of a class's mean volume
 
 // A class by its number, its speed and the diameter of its mean volume.
 glass::SizeClass sizeClass(const rain::SizeLaw& law, const rain::SpeedClass& c) {
   double cubes = 0.0;
-  for (int i = 0; i < kSizeSteps; ++i) cubes += std::pow(law.quantile(c.from_mm, c.to_mm, (i + 0.5) / kSizeSteps), 3.0);
+  for (int i = 0; i < kSizeSteps; ++i)
+    cubes += std::pow(law.quantile(c.from_mm, c.to_mm, (i + 0.5) / kSizeSteps), 3.0);
   return {std::cbrt(cubes / kSizeSteps) * 1e-3, law.numberDensity(c.from_mm, c.to_mm), c.speed_mps};
 }
 
@@ -27,10 +30,12 @@ uint32_t sizeClasses(double rate_mm_h, std::array<glass::SizeClass, glass::kMaxS
   double delivered_mps = 0.0;
   for (const rain::SpeedClass& c : rain::speedClasses()) {
     classes[count] = sizeClass(law, c);
-    delivered_mps += classes[count].number_per_m3 * std::pow(classes[count].diameter_m, 3.0) * glm::pi<double>() / 6.0 * classes[count].fall_speed_mps;
+    delivered_mps += classes[count].number_per_m3 * std::pow(classes[count].diameter_m, 3.0) *
+                     glm::pi<double>() / 6.0 * classes[count].fall_speed_mps;
     ++count;
   }
-  // A class's drops all fall at its speed here; the rest of a per cent goes into the number, so that the delivered water is the asked rate.
+  // A class's drops all fall at its speed here; the rest of a per cent goes into the number, so that the
+  // delivered water is the asked rate.
   const double scale = rate_mm_h / 3.6e6 / delivered_mps;
   for (uint32_t i = 0; i < count; ++i) classes[i].number_per_m3 *= scale;
   return count;
@@ -69,11 +74,13 @@ void Frame::tickGlass(const Tick& tick) {
   }
 }
 
-// Each region of the pane looks up along the way its rain comes: the mean drop's, against the wind. The pane's own car gives it no shelter:
-// its cabin lies right behind the glass, and its roof is over it only where the glass faces down.
+// Each region of the pane looks up along the way its rain comes: the mean drop's, against the wind. The
+// pane's own car gives it no shelter: its cabin lies right behind the glass, and its roof is over it only
+// where the glass faces down.
 void Frame::updateShelter(PaneObject& p, const VehicleState& vehicle, const Tick& tick) {
   const rain::SizeLaw law = rain::SizeLaw::of(std::max(tick.weather.rain_mm_h, 0.1));
-  const glm::dvec3 drop_mps = tick.weather.wind_mps + glm::dvec3(0.0, 0.0, -rain::fallSpeed(law.meanDiameterReachingGround_mm()));
+  const glm::dvec3 drop_mps =
+      tick.weather.wind_mps + glm::dvec3(0.0, 0.0, -rain::fallSpeed(law.meanDiameterReachingGround_mm()));
   for (int region = 0; region < glass::kRegions; ++region) {
     const auto centre = p.sim->map().regionCentre(region);
     if (!centre) continue;

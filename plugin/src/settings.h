@@ -1,4 +1,5 @@
-// What a host may tune while it runs, as data: one list that the ABI's parameters, their checks and the code all read.
+// What a host may tune while it runs, as data: one list that the ABI's parameters, their checks and the code
+// all read.
 #pragma once
 
 #include <span>
@@ -27,19 +28,30 @@ struct SettingInfo {
 };
 
 inline constexpr SettingInfo kSettings[] = {
-    {"rain.gain", "1", "rain", "how much stronger than in nature a streak covers what is behind it; 1 = physical, for camera-sensor work", 0.0, 50.0,
-     &Settings::rain_gain},
-    {"rain.visibility_factor", "1", "rain", "a drop is a particle to the distance factor * reference_px * diameter", 0.25, 4.0,
+    {"rain.gain", "1", "rain",
+     "how much stronger than in nature a streak covers what is behind it; 1 = physical, for camera-sensor "
+     "work",
+     0.0, 50.0, &Settings::rain_gain},
+    {"rain.visibility_factor", "1", "rain",
+     "a drop is a particle to the distance factor * reference_px * diameter", 0.25, 4.0,
      &Settings::rain_visibility_factor},
-    {"rain.reference_px", "px", "rain", "focal length of the reference picture; never the view's own resolution", 100.0, 20000.0,
+    {"rain.reference_px", "px", "rain",
+     "focal length of the reference picture; never the view's own resolution", 100.0, 20000.0,
      &Settings::rain_reference_px},
-    {"glass.brightness", "1", "glass", "of what is seen through water", 0.0, 2.0, &Settings::glass_brightness},
-    {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0, &Settings::glass_blur},
-    {"glass.internal_reflections", "1", "glass", "followed inside a drop", 0.0, 6.0, &Settings::glass_internal_reflections},
-    {"glass.capture_px", "px", "glass", "side of a face of the captured surroundings", 32.0, 2048.0, &Settings::glass_capture_px},
-    {"time.catch_up_s", "s", "time", "the longest stall that is caught up with; of a longer one the rest is left out", 0.1, 60.0,
+    {"glass.brightness", "1", "glass", "of what is seen through water", 0.0, 2.0,
+     &Settings::glass_brightness},
+    {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0,
+     &Settings::glass_blur},
+    {"glass.internal_reflections", "1", "glass", "followed inside a drop", 0.0, 6.0,
+     &Settings::glass_internal_reflections},
+    {"glass.capture_px", "px", "glass", "side of a face of the captured surroundings", 32.0, 2048.0,
+     &Settings::glass_capture_px},
+    {"time.catch_up_s", "s", "time",
+     "the longest stall that is caught up with; of a longer one the rest is left out", 0.1, 60.0,
      &Settings::time_catch_up_s},
-    {"bench.repeat", "1", "bench", "draws rain and glass so many times in one stage, to see a frame budget trip", 1.0, 16.0, &Settings::bench_repeat},
+    {"bench.repeat", "1", "bench",
+     "draws rain and glass so many times in one stage, to see a frame budget trip", 1.0, 16.0,
+     &Settings::bench_repeat},
 };
 
 }  // namespace rg

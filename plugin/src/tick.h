@@ -1,4 +1,5 @@
-// What one fixed tick knows of the host's world. Made by frame/ from the host's samples; read by rain/ and glass/, which know nothing of the ABI.
+// What one fixed tick knows of the host's world. Made by frame/ from the host's samples; read by rain/ and
+// glass/, which know nothing of the ABI.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,8 @@
 
 namespace rg {
 
-// Ticks lie at k / kTickHz on the host's clock: a tick's time is a function of its index alone, so it never depends on how updates fall.
+// Ticks lie at k / kTickHz on the host's clock: a tick's time is a function of its index alone, so it never
+// depends on how updates fall.
 inline constexpr int64_t kTickHz = 120;  // drops on glass and rain; the film runs every second tick
 inline constexpr double kTickSeconds = 1.0 / static_cast<double>(kTickHz);
 
@@ -53,7 +55,8 @@ struct ViewState {
   glm::dvec3 eye_velocity_mps{0.0};
 };
 
-// Where a wiper stood during the tick: it swept from `from_rad` over any reversal in `extreme_rad` to `to_rad`.
+// Where a wiper stood during the tick: it swept from `from_rad` over any reversal in `extreme_rad` to
+// `to_rad`.
 struct WiperMotion {
   uint32_t wiper = 0;
   double from_rad = 0.0;

@@ -21,7 +21,8 @@ WeatherState between(const WeatherState& a, const WeatherState& b, double s) {
 
 Pose between(const Pose& a, const Pose& b, double s) {
   return {glm::mix(a.position_m, b.position_m, s), glm::slerp(a.orientation, b.orientation, s),
-          glm::mix(a.velocity_mps, b.velocity_mps, s), glm::mix(a.angular_velocity_radps, b.angular_velocity_radps, s)};
+          glm::mix(a.velocity_mps, b.velocity_mps, s),
+          glm::mix(a.angular_velocity_radps, b.angular_velocity_radps, s)};
 }
 
 // A rigid eye_from_world turned into the eye's place and orientation, so that it can be interpolated.
@@ -58,7 +59,8 @@ ViewState viewBetween(const Sample& a, const ViewState& in_b, double s) {
   const ViewState* in_a = byId(a.views, in_b.id);
   if (in_a == nullptr || s >= 1.0) return result;
   result.discontinuity = false;
-  result.eyeFromWorld = in_b.discontinuity ? in_a->eyeFromWorld : between(in_a->eyeFromWorld, in_b.eyeFromWorld, s);
+  result.eyeFromWorld =
+      in_b.discontinuity ? in_a->eyeFromWorld : between(in_a->eyeFromWorld, in_b.eyeFromWorld, s);
   return result;
 }
 
@@ -72,14 +74,17 @@ double angleAt(const std::vector<WiperKnot>& knots, int64_t time_ns) {
   if (after == knots.begin()) return after->angle_rad;
   const WiperKnot& before = *std::prev(after);
   if (after == knots.end()) return before.angle_rad;
-  const double s = static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after->time_ns - before.time_ns);
+  const double s =
+      static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after->time_ns - before.time_ns);
   return std::lerp(before.angle_rad, after->angle_rad, s);
 }
 
 // The angle farthest outside of [from, to] that a knot inside the tick reaches: where the blade turned round.
-double extremeBetween(const std::vector<WiperKnot>& knots, int64_t begin_ns, int64_t end_ns, double from, double to) {
+double extremeBetween(const std::vector<WiperKnot>& knots, int64_t begin_ns, int64_t end_ns, double from,
+                      double to) {
   double extreme = to, reach = 0.0;
-  for (auto k = std::ranges::upper_bound(knots, begin_ns, {}, &WiperKnot::time_ns); k != knots.end() && k->time_ns < end_ns; ++k) {
+  for (auto k = std::ranges::upper_bound(knots, begin_ns, {}, &WiperKnot::time_ns);
+       k != knots.end() && k->time_ns < end_ns; ++k) {
     const double outside = std::max(k->angle_rad - std::max(from, to), std::min(from, to) - k->angle_rad);
     if (outside > reach) {
       reach = outside;

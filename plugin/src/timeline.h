@@ -25,12 +25,13 @@ struct Sample {
   std::vector<std::pair<uint32_t, WiperKnot>> wiper_knots;
 };
 
-// Inputs between samples are linear (poses: position linear, orientation slerp); beyond the last one bodies go on with their velocities.
-// A tick's inputs depend on the samples around it alone, so they do not depend on how time is cut into updates, as long as
-// the sample at or after a tick is there when the tick runs.
+// Inputs between samples are linear (poses: position linear, orientation slerp); beyond the last one bodies
+// go on with their velocities. A tick's inputs depend on the samples around it alone, so they do not depend
+// on how time is cut into updates, as long as the sample at or after a tick is there when the tick runs.
 class Timeline {
  public:
-  // Takes a sample later than all before. Vehicles and views it does not list stay as they were (a moving vehicle comes to rest).
+  // Takes a sample later than all before. Vehicles and views it does not list stay as they were (a moving
+  // vehicle comes to rest).
   void add(const Sample& sample);
   bool empty() const { return samples_.empty(); }
   const Sample& first() const { return samples_.front(); }

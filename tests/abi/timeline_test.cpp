@@ -6,8 +6,9 @@
 namespace rg {
 namespace {
 
-constexpr double kExact = 1e-12;    // a few roundings of doubles near 1
-constexpr double kNsRounding = 1e-6;  // ticks lie on whole nanoseconds: 30 m/s x 1 ns, and the same again in a second's interpolation
+constexpr double kExact = 1e-12;  // a few roundings of doubles near 1
+constexpr double kNsRounding =
+    1e-6;  // ticks lie on whole nanoseconds: 30 m/s x 1 ns, and the same again in a second's interpolation
 
 Sample sampleAt(int64_t time_ns, double x_m, double speed_mps) {
   Sample s;

@@ -11,7 +11,8 @@ int bestOfThree(const std::string& arguments, std::string& table) {
   int exit_code = 0;
   for (int attempt = 0; attempt < 3; ++attempt) {
     const auto folder = freshFolder("budget");
-    const Outcome run = runHost(arguments + " --out " + folder.string(), "MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_THRESHOLD_=2000000000");
+    const Outcome run = runHost(arguments + " --out " + folder.string(),
+                                "MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_THRESHOLD_=2000000000");
     std::filesystem::remove_all(folder);
     table = run.out + run.err;
     exit_code = run.exit_code;
@@ -21,7 +22,8 @@ int bestOfThree(const std::string& arguments, std::string& table) {
 }
 
 std::string arguments(const std::string& scenario) {
-  return "--headless --size 640x360 --fps 10 --seconds 3 --scenario " + scenario + " --budget " RG_SOURCE_DIR "/budgets.toml";
+  return "--headless --size 640x360 --fps 10 --seconds 3 --scenario " + scenario +
+         " --budget " RG_SOURCE_DIR "/budgets.toml";
 }
 
 TEST(Budget, driveKeepsIt) {

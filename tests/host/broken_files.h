@@ -20,6 +20,8 @@ void PrintTo(const Break& b, std::ostream* out);
 extern const std::vector<Break> kBreaks;
 
 /// Whether only a .glb can be broken so.
-inline bool onlyBinary(const Break& b) { return std::string(b.expected).find("has no uri") != std::string::npos; }
+inline bool onlyBinary(const Break& b) {
+  return std::string(b.expected).find("has no uri") != std::string::npos;
+}
 
 }  // namespace files

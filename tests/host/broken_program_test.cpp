@@ -1,4 +1,5 @@
-// What a user with a broken model file sees: one line that names it, and exit code 2, before any GL is asked for.
+// What a user with a broken model file sees: one line that names it, and exit code 2, before any GL is asked
+// for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,13 +14,15 @@ using files::Gltf;
 using files::TempFolder;
 
 // With an EGL that finds no display: a program that went for GL first would say so and end with 3.
-testing_host::Outcome run(const std::string& option, const std::filesystem::path& file, const TempFolder& folder) {
-  return testing_host::runHost("--headless " + option + " " + file.string() + " --seconds 0 --shots 0 --size 64x36 --out " + (folder / "out").string(),
+testing_host::Outcome run(const std::string& option, const std::filesystem::path& file,
+                          const TempFolder& folder) {
+  return testing_host::runHost("--headless " + option + " " + file.string() +
+                                   " --seconds 0 --shots 0 --size 64x36 --out " + (folder / "out").string(),
                                "EGL_PLATFORM=none __EGL_VENDOR_LIBRARY_DIRS=/nonexistent");
 }
 
-void expectRefused(const std::string& option, const std::filesystem::path& file, const TempFolder& folder, const std::string& what,
-                   const std::string& expected) {
+void expectRefused(const std::string& option, const std::filesystem::path& file, const TempFolder& folder,
+                   const std::string& what, const std::string& expected) {
   const testing_host::Outcome outcome = run(option, file, folder);
   EXPECT_EQ(outcome.exit_code, 2) << what << ": " << outcome.err;
   EXPECT_EQ(outcome.out, "") << what;
@@ -38,7 +41,8 @@ Gltf broken(const files::Break& b) {
 TEST(BrokenProgram, refusesEachBrokenBinaryInOneLineWithExitCode2) {
   ASSERT_GE(files::kBreaks.size(), 24U);
   const TempFolder folder;
-  for (const files::Break& b : files::kBreaks) expectRefused("--car", folder.write("broken.glb", broken(b).glb()), folder, b.name, b.expected);
+  for (const files::Break& b : files::kBreaks)
+    expectRefused("--car", folder.write("broken.glb", broken(b).glb()), folder, b.name, b.expected);
 }
 
 TEST(BrokenProgram, refusesEachBrokenTextInOneLineWithExitCode2) {
@@ -58,7 +62,8 @@ TEST(BrokenProgram, refusesWhatIsNoModelAtAll) {
   expectRefused("--car", folder / "none.glb", folder, "missing", "no such file");
   expectRefused("--car", folder / "folder.glb", folder, "folder", "is a directory");
   expectRefused("--car", folder.write("empty.glb", Bytes{}), folder, "empty", "is empty");
-  expectRefused("--car", folder.write("cut.glb", Bytes(sound.begin(), sound.begin() + 100)), folder, "cut", "length");
+  expectRefused("--car", folder.write("cut.glb", Bytes(sound.begin(), sound.begin() + 100)), folder, "cut",
+                "length");
   expectRefused("--car", folder.write("text.gltf", std::string("{\"asset\":}")), folder, "JSON", "JSON");
   expectRefused("--car", folder.write("list.gltf", std::string("[]")), folder, "list", "");
   Bytes other = sound;
@@ -79,7 +84,8 @@ TEST(BrokenProgram, refusesABrokenRoadAsWell) {
 // Else the tests above would pass with a program that refuses everything.
 TEST(BrokenProgram, takesTheSoundFileAndOnlyThenMissesGl) {
   const TempFolder folder;
-  const testing_host::Outcome outcome = run("--car", folder.write("sound.glb", files::wholeCar().glb()), folder);
+  const testing_host::Outcome outcome =
+      run("--car", folder.write("sound.glb", files::wholeCar().glb()), folder);
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_EQ(outcome.err.find("sound.glb"), std::string::npos) << outcome.err;
 }

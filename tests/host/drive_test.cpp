@@ -26,7 +26,8 @@ std::vector<glm::dvec3> circle(double radius_m, int points) {
 TEST(Route, keepsLengthAndCurvatureOfACircle) {
   const Route route(circle(80.0, 24));
   EXPECT_NEAR(route.length_m(), 120.0, 0.6);  // the table's step is half a metre
-  for (double way = 15.0; way < 100.0; way += 5.0) EXPECT_NEAR(route.curvature_per_m(way), 1.0 / 80.0, 0.02 / 80.0);
+  for (double way = 15.0; way < 100.0; way += 5.0)
+    EXPECT_NEAR(route.curvature_per_m(way), 1.0 / 80.0, 0.02 / 80.0);
 }
 
 TEST(Route, findsTheNearestWay) {
@@ -76,17 +77,21 @@ TEST(Driver, velocityIsTheChangeOfPosition) {
   for (int i = 0; i < 100; ++i) {
     const glm::dvec3 before = driver.state().position_m;
     driver.tick();
-    EXPECT_LT(glm::length((driver.state().position_m - before) / kHostTickSeconds - driver.state().velocity_mps), 1e-9);
+    EXPECT_LT(
+        glm::length((driver.state().position_m - before) / kHostTickSeconds - driver.state().velocity_mps),
+        1e-9);
   }
 }
 
 TEST(WiperMotor, makesItsCyclesPerMinuteAndParksAfterwards) {
-  for (const auto& [mode, cycles_per_min] : {std::pair{WiperMode::slow, kSlowCycles_per_min}, std::pair{WiperMode::fast, kFastCycles_per_min}}) {
+  for (const auto& [mode, cycles_per_min] :
+       {std::pair{WiperMode::slow, kSlowCycles_per_min}, std::pair{WiperMode::fast, kFastCycles_per_min}}) {
     WiperMotor motor;
     motor.setMode(mode);
     int reversals = 0;
     for (int i = 0; i < 120 * 60; ++i) {
-      for (const WiperKnotShare& k : motor.tick()) reversals += k.share == 1.0 && k.seconds_into_tick < kHostTickSeconds ? 1 : 0;
+      for (const WiperKnotShare& k : motor.tick())
+        reversals += k.share == 1.0 && k.seconds_into_tick < kHostTickSeconds ? 1 : 0;
     }
     EXPECT_NEAR(reversals, cycles_per_min, 1.0);
     motor.setMode(WiperMode::off);
@@ -101,7 +106,8 @@ TEST(WiperMotor, makesItsCyclesPerMinuteAndParksAfterwards) {
 
 TEST(Ticks, lieWhereTheClockSays) {
   EXPECT_EQ(hostTickNs(120), 1'000'000'000);
-  for (const int64_t t : {INT64_C(0), INT64_C(8'333'332), INT64_C(8'333'333), INT64_C(999'999'999), INT64_C(1'000'000'000), INT64_C(123'456'789'012)}) {
+  for (const int64_t t : {INT64_C(0), INT64_C(8'333'332), INT64_C(8'333'333), INT64_C(999'999'999),
+                          INT64_C(1'000'000'000), INT64_C(123'456'789'012)}) {
     EXPECT_LE(hostTickNs(hostTickAt(t)), t);
     EXPECT_GT(hostTickNs(hostTickAt(t) + 1), t);
   }
@@ -117,7 +123,9 @@ TEST(Scenario, allThatAreShippedLoad) {
 }
 
 TEST(Scenario, changesFromTheCommandLineReachIt) {
-  const Scenario s = loadScenario("drive", {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off", "plugin.rain.gain=2"}, RG_SOURCE_DIR);
+  const Scenario s = loadScenario(
+      "drive", {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off", "plugin.rain.gain=2"},
+      RG_SOURCE_DIR);
   EXPECT_EQ(s.rain_mm_h.at(0.0), 12.5);
   EXPECT_EQ(s.seconds, 3.0);
   EXPECT_EQ(s.camera, "outside");
@@ -135,20 +143,20 @@ TEST(Scenario, wrongInputIsNamedInOneLine) {
     }
     return "accepted";
   };
-  for (const auto& [change, named] : std::vector<std::pair<std::string, std::string>>{
-           {"weather.rain_mm_h=-1", "rain_mm_h"},
-           {"weather.rain_mm_h=nan", "rain_mm_h"},
-           {"weather.rain_mm_h=1e9", "rain_mm_h"},
-           {"weather.rain_mm_h=[[1,2],[1,3]]", "rain_mm_h"},
-           {"weather.reign=1", "reign"},
-           {"wipers=3", "wipers"},
-           {"camera=moon", "camera"},
-           {"seconds=-4", "seconds"},
-           {"drive=5", "drive"},
-           {"drive.stops=[[1]]", "stops"},
-           {"nonsense", "nonsense"},
-           {".x=1", ".x"},
-           {"drive.=1", "drive."}}) {
+  for (const auto& [change, named] :
+       std::vector<std::pair<std::string, std::string>>{{"weather.rain_mm_h=-1", "rain_mm_h"},
+                                                        {"weather.rain_mm_h=nan", "rain_mm_h"},
+                                                        {"weather.rain_mm_h=1e9", "rain_mm_h"},
+                                                        {"weather.rain_mm_h=[[1,2],[1,3]]", "rain_mm_h"},
+                                                        {"weather.reign=1", "reign"},
+                                                        {"wipers=3", "wipers"},
+                                                        {"camera=moon", "camera"},
+                                                        {"seconds=-4", "seconds"},
+                                                        {"drive=5", "drive"},
+                                                        {"drive.stops=[[1]]", "stops"},
+                                                        {"nonsense", "nonsense"},
+                                                        {".x=1", ".x"},
+                                                        {"drive.=1", "drive."}}) {
     const std::string text = message({change});
     EXPECT_NE(text.find(named), std::string::npos) << change << " -> " << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);

@@ -9,7 +9,7 @@ namespace {
 #ifdef __SANITIZE_ADDRESS__
 constexpr int64_t kFrame_ns = 5 * 205'000'000 / 3;  // a sanitized build is some ten times slower
 #else
-constexpr int64_t kFrame_ns = 205'000'000 / 3;      // 8.2 ticks, 14.6 a second
+constexpr int64_t kFrame_ns = 205'000'000 / 3;  // 8.2 ticks, 14.6 a second
 #endif
 constexpr double kG_mps2 = 9.81;
 
@@ -31,7 +31,8 @@ host::Scenario scenarioOf(const Variant& v) {
 const Drive::Models& Drive::models() {
   static const Models models = [] {
     const std::string folder = std::string(RG_SOURCE_DIR) + "/models/";
-    return Models{host::carView(host::loadScene(folder + "car.glb")), host::roadView(host::loadScene(folder + "road.glb"))};
+    return Models{host::carView(host::loadScene(folder + "car.glb")),
+                  host::roadView(host::loadScene(folder + "road.glb"))};
   }();
   return models;
 }
@@ -64,12 +65,14 @@ bool Drive::next() {
   simulation_.advance(time_ns_);
   plugin_.update(pluginTime_ns());
   const glm::dvec3 roof = car().position_m + glm::dvec3(0.0, 0.0, 1.5);
-  was_under_cover = was_under_cover || std::ranges::any_of(road_hulls_, [&](const Hull& h) { return h.depth(roof) > 0.0; });
+  was_under_cover =
+      was_under_cover || std::ranges::any_of(road_hulls_, [&](const Hull& h) { return h.depth(roof) > 0.0; });
   return true;
 }
 
-// The foot comes down when the nose is about to go in, so that the car stops with the shelter's edge before or above its glass. A little more
-// than the tyres give, so that with what the foot's time constant takes the deceleration does reach 1 g.
+// The foot comes down when the nose is about to go in, so that the car stops with the shelter's edge before
+// or above its glass. A little more than the tyres give, so that with what the foot's time constant takes the
+// deceleration does reach 1 g.
 void Drive::brake() {
   constexpr double kPedal = 1.1 * kG_mps2 / 9.0, kNose_m = 5.0;
   const host::CarState& car = simulation_.driver().state();
@@ -90,7 +93,8 @@ double Drive::depth(const glm::dvec3& a, const glm::dvec3& b) const {
   for (const Hull& h : road_hulls_) deepest = std::max(deepest, h.depth(a, b));
   const host::CarState at = car();
   const glm::dquat into = glm::conjugate(at.orientation);
-  for (const Hull& h : car_hulls_) deepest = std::max(deepest, h.depth(into * (a - at.position_m), into * (b - at.position_m)));
+  for (const Hull& h : car_hulls_)
+    deepest = std::max(deepest, h.depth(into * (a - at.position_m), into * (b - at.position_m)));
   return deepest;
 }
 

@@ -1,4 +1,5 @@
-// A shipped scenario, driven by the host's own simulation on the shipped models, frame by frame, with the oracle's hulls beside it.
+// A shipped scenario, driven by the host's own simulation on the shipped models, frame by frame, with the
+// oracle's hulls beside it.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,8 @@ struct Variant {
   std::string scenario;
   std::vector<std::string> changes{};  // as --set
   std::string camera = "cockpit";
-  std::string brake_for{};             // shelter of the road on entering which the car brakes at 1 g to a stop; empty: none
+  std::string
+      brake_for{};  // shelter of the road on entering which the car brakes at 1 g to a stop; empty: none
   bool sheltered = true;
 };
 
@@ -24,7 +26,8 @@ class Drive {
  public:
   explicit Drive(const Variant& variant);
 
-  // Goes on to the next frame; false after the scenario's end. Frames are 8.2 ticks apart, so that they fall on ticks and at fifths between.
+  // Goes on to the next frame; false after the scenario's end. Frames are 8.2 ticks apart, so that they fall
+  // on ticks and at fifths between.
   bool next();
 
   // ---- of the frame ----
@@ -37,7 +40,8 @@ class Drive {
   double rain_mm_h() const { return simulation_.weather().rain_mm_h; }
 
   const std::vector<Hull>& roadHulls() const { return road_hulls_; }
-  // How deep a segment given in world coordinates lies in the deepest of all volumes, the car's posed as it is at the frame.
+  // How deep a segment given in world coordinates lies in the deepest of all volumes, the car's posed as it
+  // is at the frame.
   double depth(const glm::dvec3& a, const glm::dvec3& b) const;
 
   double hardest_braking_mps2 = 0.0;  // seen so far

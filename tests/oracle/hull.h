@@ -1,5 +1,5 @@
-// The oracle's own idea of a convex volume: made straight from its points by trying every plane through three of them, and asked by
-// geometry alone. It shares nothing with the plugin's hull, tree, birth test or clip.
+// The oracle's own idea of a convex volume: made straight from its points by trying every plane through three
+// of them, and asked by geometry alone. It shares nothing with the plugin's hull, tree, birth test or clip.
 #pragma once
 
 #include <algorithm>
@@ -38,8 +38,9 @@ class Hull {
     return least;
   }
 
-  // How deep the deepest point of a segment lies inside; negative when it stays outside: how far at least. Depth is concave along the segment,
-  // so that thirds close in on its greatest (to a micrometre of a metre's length in 34 steps).
+  // How deep the deepest point of a segment lies inside; negative when it stays outside: how far at least.
+  // Depth is concave along the segment, so that thirds close in on its greatest (to a micrometre of a metre's
+  // length in 34 steps).
   double depth(const glm::dvec3& a, const glm::dvec3& b) const {
     const glm::dvec3 way = b - a;
     const double length2 = glm::dot(way, way);
@@ -47,20 +48,25 @@ class Hull {
     const double beyond_m = glm::distance(a + way * nearest, centre_) - radius_m_;
     if (beyond_m > 0.0) return -beyond_m;
     double apart_m = 0.0;
-    for (const Face& f : faces_) apart_m = std::max(apart_m, std::min(glm::dot(f.outward, a), glm::dot(f.outward, b)) - f.d);
+    for (const Face& f : faces_)
+      apart_m = std::max(apart_m, std::min(glm::dot(f.outward, a), glm::dot(f.outward, b)) - f.d);
     if (apart_m > 0.0) return -apart_m;
     double low = 0.0, high = 1.0;
     for (int i = 0; i < 34; ++i) {
       const double third = (high - low) / 3.0;
-      if (depth(a + way * (low + third)) < depth(a + way * (high - third))) low += third;
-      else high -= third;
+      if (depth(a + way * (low + third)) < depth(a + way * (high - third)))
+        low += third;
+      else
+        high -= third;
     }
     return depth(a + way * (0.5 * (low + high)));
   }
 
  private:
-  void addIfAFace(const std::vector<glm::dvec3>& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    constexpr double kSliver_m2 = 1e-6, kRounding_m = 2e-5;  // points come as floats: 6e-5 m apart a kilometre out
+  void addIfAFace(const std::vector<glm::dvec3>& p, const glm::dvec3& a, const glm::dvec3& b,
+                  const glm::dvec3& c) {
+    constexpr double kSliver_m2 = 1e-6,
+                     kRounding_m = 2e-5;  // points come as floats: 6e-5 m apart a kilometre out
     glm::dvec3 normal = glm::cross(b - a, c - a);
     const double twice_area_m2 = glm::length(normal);
     if (twice_area_m2 < kSliver_m2) return;
@@ -71,7 +77,8 @@ class Hull {
       if (glm::dot(normal, q) > d + kRounding_m) return;
     }
     for (const glm::dvec3& q : p) d = std::max(d, glm::dot(normal, q));
-    const bool known = std::ranges::any_of(faces_, [&](const Face& f) { return glm::distance(f.outward, normal) < 1e-7; });
+    const bool known =
+        std::ranges::any_of(faces_, [&](const Face& f) { return glm::distance(f.outward, normal) < 1e-7; });
     if (!known) faces_.push_back({normal, d});
   }
 

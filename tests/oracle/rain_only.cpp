@@ -25,7 +25,8 @@ rg_result setWiper(rg_instance*, uint32_t, const rg_wiper_info*) { return RG_OK;
 rg_result setVolume(rg_instance* instance, uint32_t id, const rg_volume_info* in) {
   if (forget_volumes) return RG_OK;
   std::vector<glm::dvec3> vertices;
-  for (uint32_t i = 0; i < in->vertex_count; ++i) vertices.emplace_back(in->vertices_m[3 * i], in->vertices_m[3 * i + 1], in->vertices_m[3 * i + 2]);
+  for (uint32_t i = 0; i < in->vertex_count; ++i)
+    vertices.emplace_back(in->vertices_m[3 * i], in->vertices_m[3 * i + 1], in->vertices_m[3 * i + 2]);
   rg::rain::VolumeInfo info;
   info.vehicle = in->vehicle;
   info.name = in->name;
@@ -37,10 +38,12 @@ rg_result setVolume(rg_instance* instance, uint32_t id, const rg_volume_info* in
 rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, uint32_t count, size_t stride) {
   RainOnly& rain = rainOnly(instance);
   for (uint32_t i = 0; i < count; ++i) {
-    rain.timeline.add(rg::readSample(rg::element(in, stride, i), rain.timeline.empty() ? nullptr : &rain.timeline.last()));
+    rain.timeline.add(
+        rg::readSample(rg::element(in, stride, i), rain.timeline.empty() ? nullptr : &rain.timeline.last()));
   }
   if (rain.next_tick == INT64_MIN) rain.next_tick = 0;
-  for (; rg::tickTimeNs(rain.next_tick) <= time_ns; ++rain.next_tick) rain.field->tick(rain.timeline.tick(rain.next_tick));
+  for (; rg::tickTimeNs(rain.next_tick) <= time_ns; ++rain.next_tick)
+    rain.field->tick(rain.timeline.tick(rain.next_tick));
   rain.timeline.prune(rain.next_tick - 1);
   return RG_OK;
 }

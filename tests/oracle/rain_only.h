@@ -1,5 +1,5 @@
-// The plugin's ABI with nothing behind it but the plugin's own timeline and rain field, so that the host's simulation can drive them
-// without a GPU and a test can look at each streak.
+// The plugin's ABI with nothing behind it but the plugin's own timeline and rain field, so that the host's
+// simulation can drive them without a GPU and a test can look at each streak.
 #pragma once
 
 #include <memory>

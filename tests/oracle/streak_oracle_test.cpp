@@ -1,5 +1,5 @@
-// No streak is drawn where it is dry, and none is missing where it is not: the shipped scenarios and models, frame by frame, against geometry
-// that knows nothing of how the plugin shelters its drops.
+// No streak is drawn where it is dry, and none is missing where it is not: the shipped scenarios and models,
+// frame by frame, against geometry that knows nothing of how the plugin shelters its drops.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -13,8 +13,9 @@ namespace {
 
 using rg::rain::Streak;
 
-// Float places 20 m from the eye are 2 um apart and drops' ends are told to 8 us, 0.3 mm at 40 m/s; a drop's own radius, by which streaks
-// stay off, is at least 0.25 mm. Half a millimetre is what a streak may be inside at most.
+// Float places 20 m from the eye are 2 um apart and drops' ends are told to 8 us, 0.3 mm at 40 m/s; a drop's
+// own radius, by which streaks stay off, is at least 0.25 mm. Half a millimetre is what a streak may be
+// inside at most.
 constexpr double kTolerance_m = 0.5e-3;
 
 glm::dvec3 classVelocity(const Drive& drive, uint32_t kind) {
@@ -34,7 +35,8 @@ Tally tally(Drive& drive) {
     drive.field().streaks(view, drive.pluginTime_ns(), streaks);
     t.streaks += streaks.size();
     for (const Streak& s : streaks) {
-      const double whole_m = glm::length(classVelocity(drive, s.kind) - view.eye_velocity_mps) * view.exposure_s;
+      const double whole_m =
+          glm::length(classVelocity(drive, s.kind) - view.eye_velocity_mps) * view.exposure_s;
       t.clipped += glm::distance(s.from_m, s.to_m) < 0.99 * whole_m ? 1u : 0u;
       const double depth_m = drive.depth(s.from_m, s.to_m);
       t.deepest_m = std::max(t.deepest_m, depth_m);
@@ -53,11 +55,18 @@ const Variant kVariants[] = {
     {.scenario = "canopy", .changes = {"weather.wind_y_mps=40"}},
     {.scenario = "tunnel", .changes = {"weather.wind_x_mps=-40"}},
     {.scenario = "canopy", .changes = {"weather.wind_x_mps=-40"}},
-    {.scenario = "canopy", .changes = {"weather.wind_x_mps=30", "weather.wind_y_mps=-27"}, .camera = "outside"},
+    {.scenario = "canopy",
+     .changes = {"weather.wind_x_mps=30", "weather.wind_y_mps=-27"},
+     .camera = "outside"},
     {.scenario = "tunnel", .changes = {"drive.speed_kmh=80"}, .brake_for = "tunnel_0"},
     {.scenario = "canopy", .changes = {"drive.speed_kmh=50", "drive.stops=[[1,0]]"}, .brake_for = "canopy"},
-    {.scenario = "tunnel", .changes = {"drive.speed_kmh=80", "weather.wind_x_mps=-40"}, .brake_for = "tunnel_0"},
-    {.scenario = "canopy", .changes = {"drive.speed_kmh=50", "drive.stops=[[1,0]]", "weather.wind_y_mps=40"}, .camera = "outside", .brake_for = "canopy"},
+    {.scenario = "tunnel",
+     .changes = {"drive.speed_kmh=80", "weather.wind_x_mps=-40"},
+     .brake_for = "tunnel_0"},
+    {.scenario = "canopy",
+     .changes = {"drive.speed_kmh=50", "drive.stops=[[1,0]]", "weather.wind_y_mps=40"},
+     .camera = "outside",
+     .brake_for = "canopy"},
 };
 
 std::string nameOf(const Variant& v) {
@@ -75,8 +84,9 @@ class Drives : public ::testing::TestWithParam<Variant> {};
 TEST_P(Drives, drawNoStreakInsideAnyVolumeAtAnyFrame) {
   Drive drive(GetParam());
   const Tally t = tally(drive);
-  std::printf("%s: %llu frames, %llu streaks, %llu clipped, deepest %.3f mm\n", nameOf(GetParam()).c_str(), static_cast<unsigned long long>(t.frames),
-              static_cast<unsigned long long>(t.streaks), static_cast<unsigned long long>(t.clipped), t.deepest_m * 1e3);
+  std::printf("%s: %llu frames, %llu streaks, %llu clipped, deepest %.3f mm\n", nameOf(GetParam()).c_str(),
+              static_cast<unsigned long long>(t.frames), static_cast<unsigned long long>(t.streaks),
+              static_cast<unsigned long long>(t.clipped), t.deepest_m * 1e3);
   EXPECT_EQ(t.inside, 0u);
   EXPECT_TRUE(drive.was_under_cover);
   EXPECT_GT(t.streaks, 300 * t.frames) << "rain is seen from under cover too, but for deep in the tunnel";
@@ -85,7 +95,8 @@ TEST_P(Drives, drawNoStreakInsideAnyVolumeAtAnyFrame) {
     EXPECT_GT(drive.hardest_braking_mps2, 9.81);
   }
 }
-INSTANTIATE_TEST_SUITE_P(All, Drives, ::testing::ValuesIn(kVariants), [](const auto& v) { return nameOf(v.param); });
+INSTANTIATE_TEST_SUITE_P(All, Drives, ::testing::ValuesIn(kVariants),
+                         [](const auto& v) { return nameOf(v.param); });
 
 TEST(Oracle, seesTheRainThatAFieldWithoutShelterDrawsInside) {
   Drive drive({.scenario = "canopy", .changes = {"seconds=8"}, .sheltered = false});
@@ -95,20 +106,23 @@ TEST(Oracle, seesTheRainThatAFieldWithoutShelterDrawsInside) {
 
 // ---- none is missing ----
 
-// Where the car's cabin never was between the rain and the place: before its nose, or higher than its roof. (Not with the wind from behind.)
+// Where the car's cabin never was between the rain and the place: before its nose, or higher than its roof.
+// (Not with the wind from behind.)
 bool beyondTheCar(const Drive& drive, const glm::dvec3& p) {
   const host::CarState car = drive.car();
   const glm::dvec3 q = glm::conjugate(car.orientation) * (p - car.position_m);
   return q.x > 4.0 || q.z > 1.8;
 }
 
-// Whether rain comes down to a place past all of the road's volumes, each made smaller (or with a negative sign larger) by `margin_m`.
+// Whether rain comes down to a place past all of the road's volumes, each made smaller (or with a negative
+// sign larger) by `margin_m`.
 bool reached(const Drive& drive, const glm::dvec3& p, const glm::dvec3& velocity_mps, double margin_m) {
   const glm::dvec3 from = p - velocity_mps * (295.0 / glm::length(velocity_mps));
   return std::ranges::none_of(drive.roadHulls(), [&](const Hull& h) { return h.depth(from, p) > margin_m; });
 }
 
-// The number of drops to be seen: the size law's density, times the part of each class's cone that rain reaches, found by throwing points.
+// The number of drops to be seen: the size law's density, times the part of each class's cone that rain
+// reaches, found by throwing points.
 double expectedDrops(const Drive& drive, const rg::ViewState& view, std::mt19937_64& random) {
   constexpr int kPoints = 200;
   const rg::rain::SizeLaw law = rg::rain::SizeLaw::of(drive.rain_mm_h());
@@ -122,7 +136,8 @@ double expectedDrops(const Drive& drive, const rg::ViewState& view, std::mt19937
     const double density = law.numberDensity(c.from_mm, c.to_mm);
     const glm::dvec3 velocity = classVelocity(drive, kind);
     for (int i = 0; i < kPoints; ++i) {
-      const double reach_m = visibility.factor * visibility.reference_px * 1e-3 * law.quantile(c.from_mm, c.to_mm, (i + 0.5) / kPoints);
+      const double reach_m = visibility.factor * visibility.reference_px * 1e-3 *
+                             law.quantile(c.from_mm, c.to_mm, (i + 0.5) / kPoints);
       const glm::dvec3 along(wide * (2.0 * one(random) - 1.0), high * (2.0 * one(random) - 1.0), -1.0);
       const double deepest_m = reach_m / glm::length(along);
       const glm::dvec3 p(worldFromEye * glm::dvec4(along * (deepest_m * std::cbrt(one(random))), 1.0));
@@ -140,8 +155,9 @@ bool inView(const rg::ViewState& view, const glm::dvec3& p) {
 
 class OpenAir : public ::testing::TestWithParam<Variant> {};
 
-// Each frame's drops are others (half a second on, most have fallen past), so that the count is Poisson's; 4 standard errors, and 2 % for
-// the points thrown and for wakes of volumes beyond the 300 m that a drop's past is followed.
+// Each frame's drops are others (half a second on, most have fallen past), so that the count is Poisson's; 4
+// standard errors, and 2 % for the points thrown and for wakes of volumes beyond the 300 m that a drop's past
+// is followed.
 TEST_P(OpenAir, holdsTheDropsOfTheSizeLawAndShadowsHoldNone) {
   Drive drive(GetParam());
   std::mt19937_64 random(1);
@@ -164,11 +180,13 @@ TEST_P(OpenAir, holdsTheDropsOfTheSizeLawAndShadowsHoldNone) {
   EXPECT_GT(expected, 3000.0);
   EXPECT_NEAR(seen, expected, 0.02 * expected + 4.0 * std::sqrt(expected));
 }
-INSTANTIATE_TEST_SUITE_P(Some, OpenAir,
-                         ::testing::Values(Variant{.scenario = "tunnel"}, Variant{.scenario = "canopy"}, Variant{.scenario = "canopy", .camera = "outside"},
-                                           Variant{.scenario = "canopy", .changes = {"weather.wind_y_mps=40"}},
-                                           Variant{.scenario = "tunnel", .changes = {"weather.wind_x_mps=-40"}}),
-                         [](const auto& v) { return nameOf(v.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Some, OpenAir,
+    ::testing::Values(Variant{.scenario = "tunnel"}, Variant{.scenario = "canopy"},
+                      Variant{.scenario = "canopy", .camera = "outside"},
+                      Variant{.scenario = "canopy", .changes = {"weather.wind_y_mps=40"}},
+                      Variant{.scenario = "tunnel", .changes = {"weather.wind_x_mps=-40"}}),
+    [](const auto& v) { return nameOf(v.param); });
 
 }  // namespace
 }  // namespace oracle

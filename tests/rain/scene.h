@@ -34,7 +34,8 @@ struct Scene {
 
 // 60 deg horizontally, 16:9, looking level along `heading_rad` (0 = +x).
 inline void look(ViewState& view, const dvec3& eye, double heading_rad, double pitch_rad = 0.0) {
-  const dvec3 ahead(std::cos(heading_rad) * std::cos(pitch_rad), std::sin(heading_rad) * std::cos(pitch_rad), std::sin(pitch_rad));
+  const dvec3 ahead(std::cos(heading_rad) * std::cos(pitch_rad), std::sin(heading_rad) * std::cos(pitch_rad),
+                    std::sin(pitch_rad));
   const glm::dmat4 turned = glm::lookAt(dvec3(0.0), ahead, dvec3(0, 0, 1));
   view.eyeFromWorld = turned * glm::translate(glm::dmat4(1.0), -eye);
 }
@@ -42,7 +43,8 @@ inline void look(ViewState& view, const dvec3& eye, double heading_rad, double p
 inline ViewState viewAt(const dvec3& eye, double heading_rad = 0.0) {
   ViewState view;
   view.id = 1;
-  view.clipFromEye = glm::perspective(2.0 * std::atan(std::tan(glm::radians(30.0)) * 9.0 / 16.0), 16.0 / 9.0, 0.1, 1000.0);
+  view.clipFromEye =
+      glm::perspective(2.0 * std::atan(std::tan(glm::radians(30.0)) * 9.0 / 16.0), 16.0 / 9.0, 0.1, 1000.0);
   look(view, eye, heading_rad);
   return view;
 }
@@ -56,11 +58,13 @@ inline Scene sceneWithView(double rain_mm_h, const dvec3& eye = dvec3(0, 0, 1.5)
 
 inline std::vector<dvec3> boxCorners(const dvec3& low, const dvec3& high) {
   std::vector<dvec3> corners;
-  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+  for (int i = 0; i < 8; ++i)
+    corners.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
   return corners;
 }
 
-inline std::string setBox(Field& field, uint32_t id, const dvec3& low, const dvec3& high, uint32_t vehicle = 0) {
+inline std::string setBox(Field& field, uint32_t id, const dvec3& low, const dvec3& high,
+                          uint32_t vehicle = 0) {
   const auto corners = boxCorners(low, high);
   VolumeInfo info;
   info.name = "box";

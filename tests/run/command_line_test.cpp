@@ -8,7 +8,8 @@
 namespace testing_host {
 namespace {
 
-void expectRefused(const std::string& arguments, int exit_code, const std::string& named, const std::string& environment = "") {
+void expectRefused(const std::string& arguments, int exit_code, const std::string& named,
+                   const std::string& environment = "") {
   const Outcome run = runHost(arguments, environment);
   EXPECT_EQ(run.exit_code, exit_code) << arguments << "\n" << run.err;
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << arguments << "\n" << run.err;
@@ -18,8 +19,9 @@ void expectRefused(const std::string& arguments, int exit_code, const std::strin
 TEST(CommandLine, helpNamesEveryOption) {
   const Outcome run = runHost("--help");
   EXPECT_EQ(run.exit_code, 0);
-  for (const char* option : {"--scenario", "--environment", "--drops", "--headless", "--size", "--fps", "--seconds", "--seed", "--car", "--road", "--set",
-                             "--camera", "--shots", "--video", "--out", "--budget", "--update-hz"}) {
+  for (const char* option :
+       {"--scenario", "--environment", "--drops", "--headless", "--size", "--fps", "--seconds", "--seed",
+        "--car", "--road", "--set", "--camera", "--shots", "--video", "--out", "--budget", "--update-hz"}) {
     EXPECT_NE(run.out.find(option), std::string::npos) << option;
   }
 }
@@ -51,10 +53,13 @@ TEST(CommandLine, wrongInputIsOneLineAndExitCode2) {
 
 // Mesa can be told to offer no more than an older OpenGL.
 TEST(CommandLine, withoutOpenGl45ItSaysWhatWasFoundAndEndsWith3) {
-  expectRefused("--headless --seconds 0 --shots 0", 3, "3.3", "LIBGL_ALWAYS_SOFTWARE=1 MESA_GL_VERSION_OVERRIDE=3.3 MESA_GLSL_VERSION_OVERRIDE=330");
+  expectRefused("--headless --seconds 0 --shots 0", 3, "3.3",
+                "LIBGL_ALWAYS_SOFTWARE=1 MESA_GL_VERSION_OVERRIDE=3.3 MESA_GLSL_VERSION_OVERRIDE=330");
 }
 
-TEST(CommandLine, withoutADisplayAWindowIsRefusedInOneLine) { expectRefused("", 2, "--headless", "env -u DISPLAY -u WAYLAND_DISPLAY"); }
+TEST(CommandLine, withoutADisplayAWindowIsRefusedInOneLine) {
+  expectRefused("", 2, "--headless", "env -u DISPLAY -u WAYLAND_DISPLAY");
+}
 
 }  // namespace
 }  // namespace testing_host

@@ -12,7 +12,8 @@ constexpr double kLedger = 1e-3;  // the project's promise
 
 nlohmann::json runScenario(const std::string& name, const std::string& options) {
   const auto folder = freshFolder("report");
-  const Outcome run = runHost("--headless --size 64x36 --scenario " + name + " " + options + " --out " + folder.string());
+  const Outcome run =
+      runHost("--headless --size 64x36 --scenario " + name + " " + options + " --out " + folder.string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
   nlohmann::json json = report(folder);
   std::filesystem::remove_all(folder);
@@ -29,15 +30,18 @@ TEST(Report, holdsWhatItPromises) {
   EXPECT_EQ(json["simulated_s"], 1.0);
   EXPECT_GT(json["wall_s"], 0.0);
   EXPECT_EQ(json["gl_errors"], 0);
-  for (const char* stage : {"rain_tick", "glass_tick", "rain_upload", "glass_step", "rain_draw", "glass_draw"}) {
+  for (const char* stage :
+       {"rain_tick", "glass_tick", "rain_upload", "glass_step", "rain_draw", "glass_draw"}) {
     ASSERT_TRUE(json["stages"].contains(stage)) << stage;
     EXPECT_LE(json["stages"][stage]["cpu_ms"]["p50"], json["stages"][stage]["cpu_ms"]["p99"]) << stage;
   }
   EXPECT_GT(json["stages"]["rain_draw"]["gpu_ms"]["p50"], 0.0);
-  for (const char* key : {"rate_mm_h", "live", "born", "died", "sheltered_at_birth", "shelter_tests"}) EXPECT_TRUE(json["rain"].contains(key)) << key;
+  for (const char* key : {"rate_mm_h", "live", "born", "died", "sheltered_at_birth", "shelter_tests"})
+    EXPECT_TRUE(json["rain"].contains(key)) << key;
   EXPECT_EQ(json["rain"]["rate_mm_h"], 10.0);
   ASSERT_FALSE(json["panes"].empty());
-  for (const char* key : {"area_m2", "caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml", "evaporated_ml", "ledger_error"}) {
+  for (const char* key : {"area_m2", "caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml",
+                          "evaporated_ml", "ledger_error"}) {
     EXPECT_TRUE(json["panes"][0][key].is_number()) << key;
   }
 }
@@ -52,7 +56,9 @@ TEST(Report, waterIsConservedInEveryScenarioAndEveryTermExceedsAMillilitreSomewh
     EXPECT_EQ(json["gl_errors"], 0) << name;
     for (const auto& pane : json["panes"]) {
       EXPECT_LE(pane["ledger_error"], kLedger) << name << " " << pane["name"];
-      for (const char* term : {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml", "evaporated_ml"}) most[term] = std::max(most[term], pane[term].get<double>());
+      for (const char* term :
+           {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml", "evaporated_ml"})
+        most[term] = std::max(most[term], pane[term].get<double>());
     }
   }
   for (const auto& [term, ml] : most) EXPECT_GT(ml, 1.0) << term;

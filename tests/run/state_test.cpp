@@ -1,4 +1,5 @@
-// The state depends on the scenario and its seed alone: not on which moments are drawn, nor on how time is cut into updates.
+// The state depends on the scenario and its seed alone: not on which moments are drawn, nor on how time is
+// cut into updates.
 #include <gtest/gtest.h>
 
 #include "run_host.h"
@@ -15,7 +16,9 @@ std::ostream& operator<<(std::ostream& out, const Hashes& h) { return out << h.r
 
 Hashes hashesOf(const std::string& options) {
   const auto folder = freshFolder("state");
-  const Outcome run = runHost("--headless --scenario drive --seconds 2.5 --size 64x36 --set prewarm_s=1 --set drive.start_m=300 " + options + " --out " + folder.string());
+  const Outcome run = runHost(
+      "--headless --scenario drive --seconds 2.5 --size 64x36 --set prewarm_s=1 --set drive.start_m=300 " +
+      options + " --out " + folder.string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json json = report(folder);
   std::filesystem::remove_all(folder);
@@ -29,7 +32,8 @@ TEST(State, isTheSameForEveryFrameRateAndUpdateRateAndFromRunToRun) {
   EXPECT_FALSE(at60.state.empty());
   EXPECT_EQ(hashesOf("--fps 60 --shots 1"), at60);
   EXPECT_EQ(hashesOf("--fps 12"), at60);
-  for (const char* rate : {"30", "60", "144", "irregular"}) EXPECT_EQ(hashesOf(std::string("--fps 12 --shots 1,2 --update-hz ") + rate), at60) << rate;
+  for (const char* rate : {"30", "60", "144", "irregular"})
+    EXPECT_EQ(hashesOf(std::string("--fps 12 --shots 1,2 --update-hz ") + rate), at60) << rate;
 }
 
 TEST(State, dependsOnTheSeed) { EXPECT_NE(hashesOf("--shots 1 --seed 1"), hashesOf("--shots 1 --seed 2")); }

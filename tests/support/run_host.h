@@ -29,7 +29,8 @@ inline std::string slurp(const std::filesystem::path& file) {
 
 // A folder of this test's own, empty.
 inline std::filesystem::path freshFolder(const std::string& name) {
-  const auto folder = std::filesystem::temp_directory_path() / ("rainglass_test_" + name + "_" + std::to_string(getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("rainglass_test_" + name + "_" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
@@ -38,13 +39,16 @@ inline std::filesystem::path freshFolder(const std::string& name) {
 // `arguments` go through the shell; `environment` like "A=1 B=2".
 inline Outcome runHost(const std::string& arguments, const std::string& environment = "") {
   const auto folder = freshFolder("run");
-  const std::string command = environment + " " + RG_BIN_DIR + "/host_sim " + arguments + " >" + (folder / "out").string() + " 2>" + (folder / "err").string();
+  const std::string command = environment + " " + RG_BIN_DIR + "/host_sim " + arguments + " >" +
+                              (folder / "out").string() + " 2>" + (folder / "err").string();
   const int status = std::system(command.c_str());
   Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder / "out"), slurp(folder / "err")};
   std::filesystem::remove_all(folder);
   return run;
 }
 
-inline nlohmann::json report(const std::filesystem::path& folder) { return nlohmann::json::parse(slurp(folder / "report.json"), nullptr, false); }
+inline nlohmann::json report(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(slurp(folder / "report.json"), nullptr, false);
+}
 
 }  // namespace testing_host

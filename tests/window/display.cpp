@@ -50,17 +50,20 @@ bool wait(const std::function<bool()>& ready, std::chrono::seconds patience) {
   return true;
 }
 
-Process::Process(const std::string& program, const std::vector<std::string>& arguments, const std::vector<std::string>& environment, int kept_file) {
+Process::Process(const std::string& program, const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment, int kept_file) {
   std::vector<std::string> words{program}, settings(environment);
   words.insert(words.end(), arguments.begin(), arguments.end());
   for (char** e = environ; *e != nullptr; ++e) {
-    if (std::strncmp(*e, "DISPLAY=", 8) != 0 && std::strncmp(*e, "WAYLAND_DISPLAY=", 16) != 0) settings.emplace_back(*e);
+    if (std::strncmp(*e, "DISPLAY=", 8) != 0 && std::strncmp(*e, "WAYLAND_DISPLAY=", 16) != 0)
+      settings.emplace_back(*e);
   }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   if (kept_file >= 0) posix_spawn_file_actions_adddup2(&actions, kept_file, kept_file);
-  const int failed = posix_spawn(&id_, program.c_str(), &actions, nullptr, pointers(words).data(), pointers(settings).data());
+  const int failed = posix_spawn(&id_, program.c_str(), &actions, nullptr, pointers(words).data(),
+                                 pointers(settings).data());
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) throw std::runtime_error(program + ": " + std::strerror(failed));
 }
@@ -76,7 +79,8 @@ Process::~Process() {
 
 std::optional<int> Process::ended() {
   int status = 0;
-  if (!exit_code_ && waitpid(id_, &status, WNOHANG) == id_) exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (!exit_code_ && waitpid(id_, &status, WNOHANG) == id_)
+    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return exit_code_;
 }
 
@@ -86,9 +90,11 @@ Display::Display() {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe to Xvfb");
   fcntl(ends[0], F_SETFD, FD_CLOEXEC);
-  server_ = std::make_unique<Process>(program("Xvfb")->string(),
-                                      std::vector<std::string>{"-displayfd", std::to_string(ends[1]), "-screen", "0", "800x600x24", "-nolisten", "tcp"},
-                                      std::vector<std::string>{}, ends[1]);
+  server_ =
+      std::make_unique<Process>(program("Xvfb")->string(),
+                                std::vector<std::string>{"-displayfd", std::to_string(ends[1]), "-screen",
+                                                         "0", "800x600x24", "-nolisten", "tcp"},
+                                std::vector<std::string>{}, ends[1]);
   ::close(ends[1]);
   name_.assign(1, ':');
   for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) name_ += c;

@@ -20,7 +20,8 @@ bool wait(const std::function<bool()>& ready, std::chrono::seconds patience = st
 // A program of ours that runs beside the test; killed at the end if it is still there.
 class Process {
  public:
-  Process(const std::string& program, const std::vector<std::string>& arguments, const std::vector<std::string>& environment, int kept_file = -1);
+  Process(const std::string& program, const std::vector<std::string>& arguments,
+          const std::vector<std::string>& environment, int kept_file = -1);
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -43,7 +44,8 @@ class Display {
   // The window that is seen, by what its title begins with; 0 when there is none.
   unsigned long find(const std::string& title) const;
   std::string title(unsigned long window) const;
-  // As a person would: keys by X's names ("c", "Up", "Escape"), the mouse and its left button, size and closing by the window's frame.
+  // As a person would: keys by X's names ("c", "Up", "Escape"), the mouse and its left button, size and
+  // closing by the window's frame.
   void press(unsigned long window, const char* key, bool shifted = false);
   void hold(unsigned long window, const char* key, bool down);
   void point(unsigned long window, int x_px, int y_px, bool down);

@@ -16,17 +16,21 @@ using testing_host::report;
 class Window : public testing::Test {
  protected:
   void SetUp() override {
-    if (!Display::canBeHad()) GTEST_SKIP() << "Xvfb is not installed (package xvfb): no display to open a window on";
+    if (!Display::canBeHad())
+      GTEST_SKIP() << "Xvfb is not installed (package xvfb): no display to open a window on";
     display_ = std::make_unique<Display>();
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  // Small and without rain before the drive: software GL is slow. The window is there when its title tells the speed.
+  // Small and without rain before the drive: software GL is slow. The window is there when its title tells
+  // the speed.
   void open(const std::string& more = "", const std::string& size = "320x180") {
     std::vector<std::string> words{"--size", size, "--set", "prewarm_s=0", "--out", folder_.string()};
     std::istringstream in(more);
     for (std::string word; in >> word;) words.push_back(word);
-    host_ = std::make_unique<Process>(std::string(RG_BIN_DIR) + "/host_sim", words, std::vector<std::string>{"DISPLAY=" + display_->name(), "LIBGL_ALWAYS_SOFTWARE=1"});
+    host_ = std::make_unique<Process>(
+        std::string(RG_BIN_DIR) + "/host_sim", words,
+        std::vector<std::string>{"DISPLAY=" + display_->name(), "LIBGL_ALWAYS_SOFTWARE=1"});
     wait([&] { return host_->ended() || (window_ = display_->find("Rainglass  ")) != 0; });
   }
   std::string title() const { return display_->title(window_); }
@@ -40,7 +44,9 @@ class Window : public testing::Test {
     return at == std::string::npos ? -1.0 : std::strtod(text.c_str() + at + name.size(), nullptr);
   }
   double speedKmh() const { return told("Rainglass  "); }
-  bool becomes(const std::function<bool()>& so) { return wait([&] { return host_->ended() || so(); }) && !host_->ended(); }
+  bool becomes(const std::function<bool()>& so) {
+    return wait([&] { return host_->ended() || so(); }) && !host_->ended();
+  }
   void press(const char* key, bool shifted = false) { display_->press(window_, key, shifted); }
   void expectCleanEnd() {
     ASSERT_TRUE(wait([&] { return host_->ended().has_value(); })) << "it did not end";
@@ -107,7 +113,8 @@ TEST_F(Window, pausesTakesPicturesAndClosesByItsFrame) {
   ASSERT_TRUE(titleSays("paused")) << title();
   press("F2");
   const auto shots = [&] {
-    return std::ranges::count_if(std::filesystem::directory_iterator(folder_), [](const auto& file) { return file.path().extension() == ".png"; });
+    return std::ranges::count_if(std::filesystem::directory_iterator(folder_),
+                                 [](const auto& file) { return file.path().extension() == ".png"; });
   };
   EXPECT_TRUE(becomes([&] { return shots() == 1; }));
   display_->close(window_);
@@ -142,7 +149,8 @@ TEST_F(Window, aSliderOfThePanelSetsTheRain) {
 }
 
 TEST(WindowRefused, withoutAnyServerOnTheDisplayItIsOneLine) {
-  const auto run = testing_host::runHost("--out " + freshFolder("no_server").string(), "env -u WAYLAND_DISPLAY DISPLAY=:6543");
+  const auto run = testing_host::runHost("--out " + freshFolder("no_server").string(),
+                                         "env -u WAYLAND_DISPLAY DISPLAY=:6543");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
   EXPECT_NE(run.err.find(":6543"), std::string::npos) << run.err;

@@ -1,4 +1,5 @@
-/* rainglass.h: the whole public interface of Rainglass. C11 (and C++), no other header of ours, GL names as uint32_t.
+/* rainglass.h: the whole public interface of Rainglass. C11 (and C++), no other header of ours, GL names as
+ * uint32_t.
  *
  * Rainglass gives an OpenGL 4.5 driving simulator falling rain and water on its car's glass.
  *
@@ -7,24 +8,21 @@
  *   api = rg_get_entry(RG_ABI_MAJOR)                         the one exported symbol
  *   api->create                                              any thread
  *   api->attach_gl                                           GL thread, context current
- *   api->set_volume, set_vehicle, set_pane, set_wiper ...    any time; stable ids of your choice, 0 is never an id
- *   each frame, one way:
- *     api->update            CPU thread   samples of your world with their times; runs as many fixed ticks as the time says
- *     api->step_gpu          GL thread    uploads what is new, runs the film's ticks
- *     api->prepare_captures  GL thread    (optional) your callback draws the scene behind the glass, wide
- *     for each view:
- *       api->draw_world      GL thread    falling rain into your colour + depth
- *       api->draw_glass      GL thread    the panes, with the world behind them
- *       api->draw_finish     GL thread    whole-picture effects
+ *   api->set_volume, set_vehicle, set_pane, set_wiper ...    any time; stable ids of your choice, 0 is never
+ * an id each frame, one way: api->update            CPU thread   samples of your world with their times; runs
+ * as many fixed ticks as the time says api->step_gpu          GL thread    uploads what is new, runs the
+ * film's ticks api->prepare_captures  GL thread    (optional) your callback draws the scene behind the glass,
+ * wide for each view: api->draw_world      GL thread    falling rain into your colour + depth api->draw_glass
+ * GL thread    the panes, with the world behind them api->draw_finish     GL thread    whole-picture effects
  *   api->detach_gl                                           GL thread, context current
  *   api->destroy                                             any thread
  *
  * FRAMES AND UNITS
  *
- *   World    z up, metres, double precision, right-handed. Time is an absolute count of nanoseconds on your clock.
- *   Vehicle  x forward, y left, z up, origin where you like; a pose is worldFromVehicle.
- *   Eye      OpenGL's: x right, y up, looks along -z. `eye_from_world` maps world to eye; matrices are column-major.
- *   Wiper    seen from outside, before the glass; angle counts about `axis` from `rest_direction`:
+ *   World    z up, metres, double precision, right-handed. Time is an absolute count of nanoseconds on your
+ * clock. Vehicle  x forward, y left, z up, origin where you like; a pose is worldFromVehicle. Eye OpenGL's: x
+ * right, y up, looks along -z. `eye_from_world` maps world to eye; matrices are column-major. Wiper    seen
+ * from outside, before the glass; angle counts about `axis` from `rest_direction`:
  *
  *                 blade (blade_m, its middle arm_m from the pivot)
  *                   \                       .
@@ -37,17 +35,19 @@
  *
  * RULES
  *
- *   Structs begin with `struct_size`: set it with the matching default_* function (or to sizeof). They grow only at the end. Arrays carry a
- *   stride in bytes, so that a host compiled against an older header still walks them right. The fixed structs (rg_pose, rg_wiper_knot,
- *   rg_glass_drop, rg_lamp) never grow.
- *   Pointers in a struct are read during the call only; nothing of yours is kept, except callbacks with their user pointers.
- *   Every function returns an rg_result; negative means: nothing was changed, last_error() tells why. Positive means done, with a remark.
- *   GL: every call on the GL thread leaves your state as it found it (see attach_gl). Preconditions that GL cannot ask or suspend: no
- *   transform feedback active and unpaused, no query of target SAMPLES_PASSED / ANY_SAMPLES_PASSED / PRIMITIVES_* /
- *   TRANSFORM_FEEDBACK_* active, no conditional render in progress. Timestamps are used, never TIME_ELAPSED. What you deleted while it was
- *   bound or in use (a program, a buffer) has lost its name and cannot be bound again: after a call it is unbound.
- *   [thread: any one] a call of this kind may come from any thread, but not at once with another on the same instance of the same kind.
- *   update (and what is marked [thread: as update]) may run at the same time as the GL thread's functions; context_lost beside neither.
+ *   Structs begin with `struct_size`: set it with the matching default_* function (or to sizeof). They grow
+ * only at the end. Arrays carry a stride in bytes, so that a host compiled against an older header still
+ * walks them right. The fixed structs (rg_pose, rg_wiper_knot, rg_glass_drop, rg_lamp) never grow. Pointers
+ * in a struct are read during the call only; nothing of yours is kept, except callbacks with their user
+ * pointers. Every function returns an rg_result; negative means: nothing was changed, last_error() tells why.
+ * Positive means done, with a remark. GL: every call on the GL thread leaves your state as it found it (see
+ * attach_gl). Preconditions that GL cannot ask or suspend: no transform feedback active and unpaused, no
+ * query of target SAMPLES_PASSED / ANY_SAMPLES_PASSED / PRIMITIVES_* / TRANSFORM_FEEDBACK_* active, no
+ * conditional render in progress. Timestamps are used, never TIME_ELAPSED. What you deleted while it was
+ *   bound or in use (a program, a buffer) has lost its name and cannot be bound again: after a call it is
+ * unbound. [thread: any one] a call of this kind may come from any thread, but not at once with another on
+ * the same instance of the same kind. update (and what is marked [thread: as update]) may run at the same
+ * time as the GL thread's functions; context_lost beside neither.
  */
 #ifndef RAINGLASS_H
 #define RAINGLASS_H
@@ -68,21 +68,23 @@ extern "C" {
 #define RG_EXPORT
 #endif
 
-/* ---- results ------------------------------------------------------------------------------------------------------------------ */
+/* ---- results
+ * ------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef int32_t rg_result;
 enum {
   RG_OK = 0,
-  RG_REMARK_THINNED = 1,         /* a buffer is full: drops were thinned uniformly; see rg_rain_stats.thinning */
-  RG_REMARK_TIME_DROPPED = 2,    /* a stall longer than the catch-up bound: simulated time was left out */
-  RG_ERROR_BAD_ARGUMENT = -1,    /* NaN, out of range, null, unknown name */
-  RG_ERROR_BAD_STRUCT = -2,      /* struct_size or stride fits no version of the struct */
-  RG_ERROR_WRONG_ORDER = -3,     /* e.g. drawing before attach_gl, time running backwards without seek */
+  RG_REMARK_THINNED = 1,      /* a buffer is full: drops were thinned uniformly; see rg_rain_stats.thinning */
+  RG_REMARK_TIME_DROPPED = 2, /* a stall longer than the catch-up bound: simulated time was left out */
+  RG_ERROR_BAD_ARGUMENT = -1, /* NaN, out of range, null, unknown name */
+  RG_ERROR_BAD_STRUCT = -2,   /* struct_size or stride fits no version of the struct */
+  RG_ERROR_WRONG_ORDER = -3,  /* e.g. drawing before attach_gl, time running backwards without seek */
   RG_ERROR_MISSING_FEATURE = -4, /* laid down in this header, not in this build */
   RG_ERROR_OUT_OF_MEMORY = -5,
-  RG_ERROR_GL = -6,              /* the driver refused something */
-  RG_ERROR_GL_VERSION = -7,      /* the context is not OpenGL 4.5 */
-  RG_ERROR_NOT_FOUND = -8,       /* no object of that id */
+  RG_ERROR_GL = -6,         /* the driver refused something */
+  RG_ERROR_GL_VERSION = -7, /* the context is not OpenGL 4.5 */
+  RG_ERROR_NOT_FOUND = -8,  /* no object of that id */
   RG_ERROR_INTERNAL = -9
 };
 
@@ -92,13 +94,16 @@ typedef void (*rg_log_fn)(void* user, int32_t level, uint32_t message, const cha
 
 typedef struct rg_instance rg_instance;
 
-/* ---- creation ----------------------------------------------------------------------------------------------------------------- */
+/* ---- creation
+ * -----------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct rg_create_info {
   uint32_t struct_size;
-  uint32_t max_drops;     /* capacity for falling drops, 1000 .. 4000000; default 131072. A full buffer thins uniformly and says so */
-  uint64_t seed;          /* all randomness is a hash of it; default 1 */
-  rg_log_fn log;          /* may be null; called on the thread of the call that logs */
+  uint32_t max_drops; /* capacity for falling drops, 1000 .. 4000000; default 131072. A full buffer thins
+                         uniformly and says so */
+  uint64_t seed;      /* all randomness is a hash of it; default 1 */
+  rg_log_fn log;      /* may be null; called on the thread of the call that logs */
   void* log_user;
 } rg_create_info;
 
@@ -106,10 +111,12 @@ typedef void* (*rg_gl_get_proc_fn)(void* user, const char* name);
 
 typedef struct rg_gl_info {
   uint32_t struct_size;
-  uint32_t host_resets_state;  /* 1: skip saving and restoring GL state; the draw calls return what was touched (RG_TOUCHED_*) */
-  rg_gl_get_proc_fn get_proc;  /* required; called during attach_gl only */
+  uint32_t host_resets_state; /* 1: skip saving and restoring GL state; the draw calls return what was touched
+                                 (RG_TOUCHED_*) */
+  rg_gl_get_proc_fn get_proc; /* required; called during attach_gl only */
   void* get_proc_user;
-  uint32_t force_finish_timer; /* 1: time GPU stages with glFinish and the steady clock even where timestamps work */
+  uint32_t force_finish_timer; /* 1: time GPU stages with glFinish and the steady clock even where timestamps
+                                  work */
   uint32_t reserved;
 } rg_gl_info;
 
@@ -127,22 +134,24 @@ enum {
   RG_TOUCHED_PIXEL_STORE = 1u << 10
 };
 
-/* ---- the world, as the host tells it -------------------------------------------------------------------------------------------- */
+/* ---- the world, as the host tells it
+ * -------------------------------------------------------------------------------------------- */
 
 /* Fixed. worldFromBody: where a body is and how it moves. Orientation must be of unit length within 1e-3. */
 typedef struct rg_pose {
   double position_m[3];
-  double orientation[4];           /* quaternion x, y, z, w */
-  double velocity_mps[3];          /* of the body's origin, world axes */
+  double orientation[4];            /* quaternion x, y, z, w */
+  double velocity_mps[3];           /* of the body's origin, world axes */
   double angular_velocity_radps[3]; /* world axes */
 } rg_pose;
 
 /* A vehicle at a sample's time. */
 typedef struct rg_vehicle {
   uint32_t struct_size;
-  uint32_t id;            /* > 0 */
+  uint32_t id; /* > 0 */
   rg_pose pose;
-  uint32_t discontinuity; /* 1: it was put here (teleport) since the last sample; nothing is interpolated across */
+  uint32_t
+      discontinuity; /* 1: it was put here (teleport) since the last sample; nothing is interpolated across */
   uint32_t reserved;
 } rg_vehicle;
 
@@ -150,27 +159,27 @@ typedef struct rg_vehicle {
 typedef struct rg_weather {
   uint32_t struct_size;
   uint32_t reserved;
-  double rain_mm_h;      /* 0 .. 300; default 0 */
-  double snow_mm_h;      /* water equivalent; other than 0: RG_ERROR_MISSING_FEATURE in this build */
-  double wind_mps[3];    /* velocity of the air, world axes, each within +-100; default 0 */
-  double temperature_c;  /* -60 .. 60; default 12 */
-  double humidity;       /* relative, 0 .. 1; default 0.9 */
-  double visibility_m;   /* meteorological range without rain, 1 .. 1e6; default 40000 */
+  double rain_mm_h;     /* 0 .. 300; default 0 */
+  double snow_mm_h;     /* water equivalent; other than 0: RG_ERROR_MISSING_FEATURE in this build */
+  double wind_mps[3];   /* velocity of the air, world axes, each within +-100; default 0 */
+  double temperature_c; /* -60 .. 60; default 12 */
+  double humidity;      /* relative, 0 .. 1; default 0.9 */
+  double visibility_m;  /* meteorological range without rain, 1 .. 1e6; default 40000 */
 } rg_weather;
 
 /* One eye's picture. The same struct tells update which volumes will be looked into and draw what to draw. */
 typedef struct rg_view {
   uint32_t struct_size;
-  uint32_t id;               /* > 0 */
-  int32_t viewport_px[4];    /* x, y, width, height in the target */
-  double eye_from_world[16]; /* column-major, rigid (no scale); world positions may be large */
-  double projection[16];     /* clipFromEye, column-major; may be asymmetric, reversed, infinite */
-  uint32_t clip_zero_to_one; /* 1: glClipControl depth mode ZERO_TO_ONE in use for this target's depth */
-  uint32_t reversed_depth;   /* 1: nearer is greater (depth test GREATER) */
-  double jitter_px[2];       /* sub-pixel jitter already in `projection`; default 0 */
-  double exposure_s;         /* streaks are as long as this time makes them, 1e-5 .. 0.25; default 1/60 */
-  uint32_t vehicle;          /* the vehicle the eye is inside of, 0 = outside of all */
-  uint32_t discontinuity;    /* 1: camera cut: this view shows something else than before */
+  uint32_t id;                /* > 0 */
+  int32_t viewport_px[4];     /* x, y, width, height in the target */
+  double eye_from_world[16];  /* column-major, rigid (no scale); world positions may be large */
+  double projection[16];      /* clipFromEye, column-major; may be asymmetric, reversed, infinite */
+  uint32_t clip_zero_to_one;  /* 1: glClipControl depth mode ZERO_TO_ONE in use for this target's depth */
+  uint32_t reversed_depth;    /* 1: nearer is greater (depth test GREATER) */
+  double jitter_px[2];        /* sub-pixel jitter already in `projection`; default 0 */
+  double exposure_s;          /* streaks are as long as this time makes them, 1e-5 .. 0.25; default 1/60 */
+  uint32_t vehicle;           /* the vehicle the eye is inside of, 0 = outside of all */
+  uint32_t discontinuity;     /* 1: camera cut: this view shows something else than before */
   double eye_velocity_mps[3]; /* of the eye, world axes */
 } rg_view;
 
@@ -182,97 +191,112 @@ typedef struct rg_wiper_knot {
   double angle_rad;
 } rg_wiper_knot;
 
-/* All inputs at one moment. update() interpolates linearly between samples; the state at a tick depends on the samples and never on how
- * time was cut into updates. Give samples at your simulation's own fixed ticks and the whole is reproducible. */
+/* All inputs at one moment. update() interpolates linearly between samples; the state at a tick depends on
+ * the samples and never on how time was cut into updates. Give samples at your simulation's own fixed ticks
+ * and the whole is reproducible. */
 typedef struct rg_sample {
   uint32_t struct_size;
   uint32_t vehicle_count;
   int64_t time_ns;
-  const rg_weather* weather;     /* null: as in the sample before */
-  const rg_vehicle* vehicles;    /* vehicles that are not listed stand still */
+  const rg_weather* weather;  /* null: as in the sample before */
+  const rg_vehicle* vehicles; /* vehicles that are not listed stand still */
   size_t vehicle_stride;
-  const rg_view* views;          /* every channel's view: the near part of their frusta is filled with rain; null: as in the sample before */
+  const rg_view* views; /* every channel's view: the near part of their frusta is filled with rain; null: as
+                           in the sample before */
   size_t view_stride;
   uint32_t view_count;
   uint32_t wiper_knot_count;
   const rg_wiper_knot* wiper_knots; /* ascending in time for each wiper, not after time_ns */
 } rg_sample;
 
-/* A convex volume of air that rain does not reach: below a roof, in a tunnel, a car's cabin. Give vertices (their hull is taken) or planes. */
+/* A convex volume of air that rain does not reach: below a roof, in a tunnel, a car's cabin. Give vertices
+ * (their hull is taken) or planes. */
 typedef struct rg_volume_info {
   uint32_t struct_size;
-  uint32_t vehicle;           /* 0: coordinates are world's; else that vehicle's frame, and it moves with it */
-  const char* name;           /* for messages; null allowed; at most 63 bytes are kept */
-  const double* vertices_m;   /* xyz triples, or null */
-  uint32_t vertex_count;      /* 4 .. 256, not all in a plane */
-  uint32_t plane_count;       /* 4 .. 64 */
-  const double* planes;       /* nx, ny, nz, d: inside where n . p <= d; unit normals; or null. Must enclose a finite volume */
-  uint32_t active;            /* default 1 */
+  uint32_t vehicle;         /* 0: coordinates are world's; else that vehicle's frame, and it moves with it */
+  const char* name;         /* for messages; null allowed; at most 63 bytes are kept */
+  const double* vertices_m; /* xyz triples, or null */
+  uint32_t vertex_count;    /* 4 .. 256, not all in a plane */
+  uint32_t plane_count;     /* 4 .. 64 */
+  const double* planes;     /* nx, ny, nz, d: inside where n . p <= d; unit normals; or null. Must enclose a
+                               finite volume */
+  uint32_t active;          /* default 1 */
   uint32_t reserved;
 } rg_volume_info;
 
 /* What a pane's surface does to water; default_pane fills in RG_GLASS_UNCOATED. */
-typedef enum rg_glass { RG_GLASS_UNCOATED = 0, RG_GLASS_DIRTY = 1, RG_GLASS_COATED = 2, RG_GLASS_NEW_COATING = 3 } rg_glass;
+typedef enum rg_glass {
+  RG_GLASS_UNCOATED = 0,
+  RG_GLASS_DIRTY = 1,
+  RG_GLASS_COATED = 2,
+  RG_GLASS_NEW_COATING = 3
+} rg_glass;
 
-/* A pane: any uv-mapped mesh of a vehicle. Triangles' front (counter-clockwise) faces are the wet, outer side. */
+/* A pane: any uv-mapped mesh of a vehicle. Triangles' front (counter-clockwise) faces are the wet, outer
+ * side. */
 typedef struct rg_pane_info {
   uint32_t struct_size;
-  uint32_t vehicle;             /* > 0 */
+  uint32_t vehicle; /* > 0 */
   const char* name;
-  const float* positions_m;     /* vehicle frame, xyz */
-  const float* uvs;             /* one chart without overlap, any scale */
-  const uint32_t* indices;      /* triangles */
+  const float* positions_m; /* vehicle frame, xyz */
+  const float* uvs;         /* one chart without overlap, any scale */
+  const uint32_t* indices;  /* triangles */
   uint32_t vertex_count;
   uint32_t index_count;
-  size_t position_stride;       /* bytes, 0 = tight */
+  size_t position_stride; /* bytes, 0 = tight */
   size_t uv_stride;
-  int32_t glass;                /* rg_glass */
-  uint32_t active;              /* default 1; an inactive pane keeps its water */
-  double advancing_deg;         /* contact angles, 0 = the preset's */
+  int32_t glass;        /* rg_glass */
+  uint32_t active;      /* default 1; an inactive pane keeps its water */
+  double advancing_deg; /* contact angles, 0 = the preset's */
   double receding_deg;
-  double texel_m;               /* size of a film cell; 0.5e-3 .. 20e-3; default 3e-3 */
-  uint32_t max_drops;           /* 0 = no drops at all: the film alone; default 20000 */
-  uint32_t film_enabled;        /* default 1 */
-  double opening_m;             /* how far a window has slid down; other than 0: missing feature in this build */
+  double texel_m;        /* size of a film cell; 0.5e-3 .. 20e-3; default 3e-3 */
+  uint32_t max_drops;    /* 0 = no drops at all: the film alone; default 20000 */
+  uint32_t film_enabled; /* default 1 */
+  double opening_m;      /* how far a window has slid down; other than 0: missing feature in this build */
 } rg_pane_info;
 
 typedef struct rg_wiper_info {
   uint32_t struct_size;
-  uint32_t pane;             /* the pane it wipes */
+  uint32_t pane; /* the pane it wipes */
   const char* name;
-  double pivot_m[3];         /* vehicle frame */
-  double axis[3];            /* unit, out of the glass */
-  double rest_direction[3];  /* unit, across axis: where the arm points at angle 0 */
-  double arm_m;              /* pivot to the blade's middle */
-  double blade_m;            /* blade's length */
-  double blade_angle_rad;    /* from the arm's direction to the blade's */
-  double residual_film_m;    /* what a pass leaves; 0 .. 1e-4; default 1e-7 */
+  double pivot_m[3];        /* vehicle frame */
+  double axis[3];           /* unit, out of the glass */
+  double rest_direction[3]; /* unit, across axis: where the arm points at angle 0 */
+  double arm_m;             /* pivot to the blade's middle */
+  double blade_m;           /* blade's length */
+  double blade_angle_rad;   /* from the arm's direction to the blade's */
+  double residual_film_m;   /* what a pass leaves; 0 .. 1e-4; default 1e-7 */
 } rg_wiper_info;
 
-/* ---- drawing -------------------------------------------------------------------------------------------------------------------- */
+/* ---- drawing
+ * --------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef enum rg_color_space { RG_LINEAR_HDR = 0, RG_SRGB = 1 } rg_color_space;
 
-/* Where to draw. The colour behind is read from `color_texture` where given, else copied from the framebuffer. */
+/* Where to draw. The colour behind is read from `color_texture` where given, else copied from the
+ * framebuffer. */
 typedef struct rg_target {
   uint32_t struct_size;
-  uint32_t framebuffer;    /* complete, single-sampled in this build, colour attachment 0 drawn */
-  uint32_t color_texture;  /* GL_TEXTURE_2D attached there as colour 0, or 0. Any other is RG_ERROR_WRONG_ORDER, as for depth_texture */
-  uint32_t depth_texture;  /* GL_TEXTURE_2D attached there as depth, or 0: the framebuffer's depth buffer is tested, streaks end hard */
+  uint32_t framebuffer;   /* complete, single-sampled in this build, colour attachment 0 drawn */
+  uint32_t color_texture; /* GL_TEXTURE_2D attached there as colour 0, or 0. Any other is
+                             RG_ERROR_WRONG_ORDER, as for depth_texture */
+  uint32_t depth_texture; /* GL_TEXTURE_2D attached there as depth, or 0: the framebuffer's depth buffer is
+                             tested, streaks end hard */
   int32_t width_px;
   int32_t height_px;
-  int32_t samples;         /* 1; more: missing feature in this build */
-  int32_t layer;           /* 0 */
-  int32_t color_space;     /* rg_color_space of what is in the target now: RG_LINEAR_HDR = linear radiance */
+  int32_t samples;     /* 1; more: missing feature in this build */
+  int32_t layer;       /* 0 */
+  int32_t color_space; /* rg_color_space of what is in the target now: RG_LINEAR_HDR = linear radiance */
   uint32_t reserved;
-  double exposure;         /* what radiance was multiplied with before it was written; default 1 */
+  double exposure; /* what radiance was multiplied with before it was written; default 1 */
 } rg_target;
 
 /* Fixed. A lamp near the drops. A cone with cos_outer -1 is a point lamp. */
 typedef struct rg_lamp {
   double position_m[3];
   float direction[3];
-  float intensity[3];  /* radiant intensity, same photometric unit as radiance x m^2 */
+  float intensity[3]; /* radiant intensity, same photometric unit as radiance x m^2 */
   float cos_inner;
   float cos_outer;
 } rg_lamp;
@@ -281,71 +305,77 @@ typedef struct rg_lamp {
 typedef struct rg_lighting {
   uint32_t struct_size;
   uint32_t lamp_count;
-  float sky_radiance[3];      /* mean of the upper hemisphere */
-  float ground_radiance[3];   /* mean of the lower */
-  float sun_direction[3];     /* towards the sun, unit, or 0 */
+  float sky_radiance[3];    /* mean of the upper hemisphere */
+  float ground_radiance[3]; /* mean of the lower */
+  float sun_direction[3];   /* towards the sun, unit, or 0 */
   float sun_irradiance[3];
   const rg_lamp* lamps;
-  uint32_t environment_cube;  /* GL_TEXTURE_CUBE_MAP of linear radiance with mips, world axes, or 0 */
+  uint32_t environment_cube; /* GL_TEXTURE_CUBE_MAP of linear radiance with mips, world axes, or 0 */
   uint32_t reserved;
 } rg_lighting;
 
 typedef struct rg_draw {
   uint32_t struct_size;
-  uint32_t touched;           /* out: RG_TOUCHED_* of this call */
-  int64_t time_ns;            /* the picture's moment: not before the last tick minus 1 s; drops and blades are placed at it */
+  uint32_t touched; /* out: RG_TOUCHED_* of this call */
+  int64_t time_ns; /* the picture's moment: not before the last tick minus 1 s; drops and blades are placed at
+                      it */
   const rg_view* view;
   const rg_target* target;
   const rg_lighting* lighting;
 } rg_draw;
 
-/* Scene and sky behind the glass as seen wide from `eye_from_world`: no rain, no panes, no cabin. Called inside prepare_captures only, with
- * GL in the plugin's state, not yours: set all that you draw with (framebuffer, viewport, clip control, tests, masks, program, textures).
- * Programs, vertex arrays, buffers, texture units 0 .. 7, framebuffers, viewport, blend, depth, raster and pixel store are yours again when
- * prepare_captures returns; what else you change stays changed. Call no function of the plugin's for the GL thread. */
-typedef void (*rg_capture_fn)(void* user, uint32_t framebuffer, int32_t width_px, int32_t height_px, const double eye_from_world[16],
-                              const double projection[16]);
+/* Scene and sky behind the glass as seen wide from `eye_from_world`: no rain, no panes, no cabin. Called
+ * inside prepare_captures only, with GL in the plugin's state, not yours: set all that you draw with
+ * (framebuffer, viewport, clip control, tests, masks, program, textures). Programs, vertex arrays, buffers,
+ * texture units 0 .. 7, framebuffers, viewport, blend, depth, raster and pixel store are yours again when
+ * prepare_captures returns; what else you change stays changed. Call no function of the plugin's for the GL
+ * thread. */
+typedef void (*rg_capture_fn)(void* user, uint32_t framebuffer, int32_t width_px, int32_t height_px,
+                              const double eye_from_world[16], const double projection[16]);
 typedef struct rg_capture_info {
   uint32_t struct_size;
-  uint32_t max_faces;      /* pictures drawn in this call at most; default 1 */
+  uint32_t max_faces;       /* pictures drawn in this call at most; default 1 */
   rg_capture_fn draw_scene; /* null: glass sees the visible picture instead, less exact */
   void* user;
-  const rg_view* view;     /* whose eye */
+  const rg_view* view; /* whose eye */
 } rg_capture_info;
 
-/* ---- what is asked ---------------------------------------------------------------------------------------------------------------- */
+/* ---- what is asked
+ * ----------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct rg_rain_stats {
   uint32_t struct_size;
   uint32_t reserved;
   double rate_mm_h;
-  double thinning;              /* share of drops that exist, 1 = all */
+  double thinning; /* share of drops that exist, 1 = all */
   uint64_t live, born, died;
-  uint64_t sheltered_at_birth;  /* drops of the field that a volume kept from being born at all */
-  uint64_t shelter_tests;       /* drop-against-volume tests done */
+  uint64_t sheltered_at_birth; /* drops of the field that a volume kept from being born at all */
+  uint64_t shelter_tests;      /* drop-against-volume tests done */
   uint64_t uploaded_bytes;
 } rg_rain_stats;
 
-/* The ledger of a pane, mL since it was made or reset. caught = on_glass + drained + wiped + blown + evaporated, within ledger_error. */
+/* The ledger of a pane, mL since it was made or reset. caught = on_glass + drained + wiped + blown +
+ * evaporated, within ledger_error. */
 typedef struct rg_pane_stats {
   uint32_t struct_size;
   uint32_t drops;
   double area_m2;
   double caught_ml;
-  double on_glass_ml;    /* summed afresh: film + drops + ridges + in flight */
+  double on_glass_ml; /* summed afresh: film + drops + ridges + in flight */
   double drained_ml;
-  double wiped_ml;       /* thrown off the glass by blades */
+  double wiped_ml; /* thrown off the glass by blades */
   double blown_ml;
   double evaporated_ml;
-  double ledger_error;   /* |caught - sum of the others| / max(caught, 1 mL) */
-  double film_ml;        /* of on_glass */
-  double drops_ml;       /* of on_glass */
-  double ridge_ml;       /* of on_glass: carried by blades */
+  double ledger_error; /* |caught - sum of the others| / max(caught, 1 mL) */
+  double film_ml;      /* of on_glass */
+  double drops_ml;     /* of on_glass */
+  double ridge_ml;     /* of on_glass: carried by blades */
 } rg_pane_stats;
 
 typedef struct rg_stage_stats {
   uint32_t struct_size;
-  uint32_t gpu;               /* 1: has GPU work */
+  uint32_t gpu; /* 1: has GPU work */
   char name[32];
   double cpu_ms_p50, cpu_ms_p95, cpu_ms_p99;
   double gpu_ms_p50, gpu_ms_p95, gpu_ms_p99;
@@ -359,27 +389,29 @@ typedef enum rg_hash_kind { RG_HASH_RAIN = 0, RG_HASH_STATE = 1 } rg_hash_kind;
 typedef struct rg_parameter {
   uint32_t struct_size;
   uint32_t reserved;
-  char name[48];   /* "rain.visibility_factor" */
+  char name[48]; /* "rain.visibility_factor" */
   char unit[16];
   char group[32];
-  char text[160];  /* what it does */
+  char text[160]; /* what it does */
   double minimum, maximum, preset, value;
 } rg_parameter;
 
 /* Fixed. A drop placed on a pane: spherical cap on the outer face. */
 typedef struct rg_glass_drop {
-  double u_m;              /* to the right of the pane's middle, seen from inside, looking out */
-  double v_m;              /* up the pane from its middle */
-  double base_radius_m;    /* 1e-5 .. 0.02 */
+  double u_m;               /* to the right of the pane's middle, seen from inside, looking out */
+  double v_m;               /* up the pane from its middle */
+  double base_radius_m;     /* 1e-5 .. 0.02 */
   double contact_angle_deg; /* 1 .. 170 */
 } rg_glass_drop;
 
-/* ---- the functions ------------------------------------------------------------------------------------------------------------------ */
+/* ---- the functions
+ * ------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct rg_api {
   uint32_t struct_size;
   uint32_t abi_minor;
-  const char* version;  /* of the plugin, static */
+  const char* version; /* of the plugin, static */
 
   /* Defaults: fill in *out wholly, struct_size included; null does nothing. [thread: any] */
   void (*default_create_info)(rg_create_info* out);
@@ -396,24 +428,25 @@ typedef struct rg_api {
   void (*default_draw)(rg_draw* out);
   void (*default_capture_info)(rg_capture_info* out);
 
-  /* Life. [thread: any one] The instance is yours until destroy; destroy(null) does nothing. Destroying an attached instance frees no
-   * GL object (there may be no context): detach first. */
+  /* Life. [thread: any one] The instance is yours until destroy; destroy(null) does nothing. Destroying an
+   * attached instance frees no GL object (there may be no context): detach first. */
   rg_result (*create)(const rg_create_info* info, rg_instance** out);
   void (*destroy)(rg_instance* instance);
-  /* Text of this instance's last error on this thread (where it had none, of the last on any; for null, of the last failed create on this
-   * thread); valid until this thread's next call. [thread: any] */
+  /* Text of this instance's last error on this thread (where it had none, of the last on any; for null, of
+   * the last failed create on this thread); valid until this thread's next call. [thread: any] */
   const char* (*last_error)(rg_instance* instance);
 
-  /* GL. [thread: GL, context current] attach_gl makes all GL objects; attach again after detach_gl or context_lost. With host_resets_state
-   * 0 every GL call after it leaves the context's state as found, a pending GL error included. */
+  /* GL. [thread: GL, context current] attach_gl makes all GL objects; attach again after detach_gl or
+   * context_lost. With host_resets_state 0 every GL call after it leaves the context's state as found, a
+   * pending GL error included. */
   rg_result (*attach_gl)(rg_instance* instance, const rg_gl_info* info);
   rg_result (*detach_gl)(rg_instance* instance);
-  /* The context is gone with all that was in it: forget GL names without freeing them. The water on the film's grid is lost with it and is
-   * booked as drained. [thread: any one] */
+  /* The context is gone with all that was in it: forget GL names without freeing them. The water on the
+   * film's grid is lost with it and is booked as drained. [thread: any one] */
   rg_result (*context_lost)(rg_instance* instance);
 
-  /* Objects. [thread: as update] Adding an id again replaces it; a pane then starts dry and keeps its wipers. A pane takes its wipers along
-   * when it is removed. */
+  /* Objects. [thread: as update] Adding an id again replaces it; a pane then starts dry and keeps its wipers.
+   * A pane takes its wipers along when it is removed. */
   rg_result (*set_volume)(rg_instance* instance, uint32_t id, const rg_volume_info* info);
   rg_result (*remove_volume)(rg_instance* instance, uint32_t id);
   rg_result (*remove_vehicle)(rg_instance* instance, uint32_t id); /* with its volumes, panes and wipers */
@@ -421,28 +454,35 @@ typedef struct rg_api {
   rg_result (*remove_pane)(rg_instance* instance, uint32_t id);
   rg_result (*set_wiper)(rg_instance* instance, uint32_t id, const rg_wiper_info* info);
   rg_result (*remove_wiper)(rg_instance* instance, uint32_t id);
-  /* Puts drops on a pane, beside what is there; counted as caught. Drops off the pane are refused, all of them. */
+  /* Puts drops on a pane, beside what is there; counted as caught. Drops off the pane are refused, all of
+   * them. */
   rg_result (*place_drops)(rg_instance* instance, uint32_t pane, const rg_glass_drop* drops, uint32_t count);
 
   /* Frame. */
-  /* Runs ticks up to time_ns. Samples ascend in time, all after those given before (and after seek's time) and not after time_ns. The first
-   * update needs a sample, which starts the clock. Times lie within 73 years of 0. [thread: any one, no GL] */
-  rg_result (*update)(rg_instance* instance, int64_t time_ns, const rg_sample* samples, uint32_t count, size_t stride);
-  rg_result (*step_gpu)(rg_instance* instance);                                     /* [thread: GL] */
+  /* Runs ticks up to time_ns. Samples ascend in time, all after those given before (and after seek's time)
+   * and not after time_ns. The first update needs a sample, which starts the clock. Times lie within 73 years
+   * of 0. [thread: any one, no GL] */
+  rg_result (*update)(rg_instance* instance, int64_t time_ns, const rg_sample* samples, uint32_t count,
+                      size_t stride);
+  rg_result (*step_gpu)(rg_instance* instance);                                      /* [thread: GL] */
   rg_result (*prepare_captures)(rg_instance* instance, const rg_capture_info* info); /* [thread: GL] */
-  rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);                    /* [thread: GL] */
-  rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);                    /* [thread: GL] */
-  rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw);                   /* [thread: GL] */
+  rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);                     /* [thread: GL] */
+  rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);                     /* [thread: GL] */
+  rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw);                    /* [thread: GL] */
 
   /* Time. [thread: as update] */
-  rg_result (*reset)(rg_instance* instance);                          /* as after create: clock, rain, water; objects stay */
-  rg_result (*seek)(rg_instance* instance, int64_t time_ns);          /* rain as it is at that time; water on glass stays */
-  rg_result (*prewarm)(rg_instance* instance, double seconds);        /* rain that long before the first picture */
-  rg_result (*rebase_origin)(rg_instance* instance, const double shift_m[3]); /* the host's world moved by -shift: p_new = p_old - shift */
+  rg_result (*reset)(rg_instance* instance); /* as after create: clock, rain, water; objects stay */
+  rg_result (*seek)(rg_instance* instance,
+                    int64_t time_ns); /* rain as it is at that time; water on glass stays */
+  rg_result (*prewarm)(rg_instance* instance, double seconds); /* rain that long before the first picture */
+  rg_result (*rebase_origin)(
+      rg_instance* instance,
+      const double shift_m[3]); /* the host's world moved by -shift: p_new = p_old - shift */
   rg_result (*save)(rg_instance* instance, void* buffer, size_t* size); /* buffer null: asks the size */
   rg_result (*restore)(rg_instance* instance, const void* buffer, size_t size);
 
-  /* Questions. [thread: as update; get_pane_stats and hash also finish what the GPU was asked for and so want the GL thread] */
+  /* Questions. [thread: as update; get_pane_stats and hash also finish what the GPU was asked for and so want
+   * the GL thread] */
   rg_result (*get_rain_stats)(rg_instance* instance, rg_rain_stats* out);
   rg_result (*get_pane_stats)(rg_instance* instance, uint32_t pane, rg_pane_stats* out);
   rg_result (*get_stage_count)(rg_instance* instance, uint32_t* out);
@@ -456,7 +496,8 @@ typedef struct rg_api {
   rg_result (*set_parameter)(rg_instance* instance, const char* name, double value);
 } rg_api;
 
-/* The table for this ABI major, or null when this library does not speak it. Static: never freed. [thread: any] */
+/* The table for this ABI major, or null when this library does not speak it. Static: never freed. [thread:
+ * any] */
 RG_EXPORT const rg_api* rg_get_entry(uint32_t abi_major);
 
 #ifdef __cplusplus

@@ -1,1 +1,0 @@
-// Stands in until a part has files.
