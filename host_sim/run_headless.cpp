@@ -15,8 +15,6 @@
 namespace host {
 namespace {
 
-constexpr uint64_t kFramesPerReference = 8;
-
 void makeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -61,7 +59,7 @@ int runHeadless(const Options& options) {
     const bool single = !e.shot.empty() && options.video.empty();
     stage.draw(e.time_ns, target, picture.framebuffer(), single ? 6 : 1);
     ++report.frames;
-    if (!budget.empty() && report.frames % kFramesPerReference == 1) reference.run();
+    if (!budget.empty()) reference.run();
     if (!e.shot.empty()) writePng(options.out / e.shot, picture.read(), options.size_px.x, options.size_px.y);
     if (video) video->add(picture.read());
     showProgress(static_cast<double>(e.time_ns) * 1e-9, scenario.seconds, report.frames, wall_s());

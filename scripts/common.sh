@@ -6,7 +6,7 @@ cd "$root"
 # What building, running and testing need on a fresh Debian 12.
 packages=(
   g++ cmake ninja-build pkg-config
-  libglm-dev libglfw3-dev libtinygltf-dev python3-glad libegl-dev libgl-dev libpng-dev libimgui-dev
+  libglm-dev libglfw3-dev libtinygltf-dev python3-glad libegl-dev libgl-dev libpng-dev libturbojpeg0-dev libimgui-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev
   libegl1 libegl-mesa0 libgl1 libglx-mesa0 libgl1-mesa-dri
   libx11-dev ffmpeg xvfb python3 python3-numpy imagemagick

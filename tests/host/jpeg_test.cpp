@@ -116,13 +116,28 @@ TEST(JpegTexture, cutOffBeforeItsPictureIsRefusedInOneLine) {
   }
 }
 
+TEST(JpegTexture, damagedAnywhereLoadsOrIsRefused) {
+  int refused = 0;
+  for (std::size_t at = 2; at < kBaseline.size(); ++at) {
+    for (const std::uint8_t value : {std::uint8_t{0x00}, std::uint8_t{0xff}, std::uint8_t{0xda}}) {
+      Bytes damaged = kBaseline;
+      damaged[at] = value;
+      const std::string message = complaint(damaged);
+      refused += message.empty() ? 0 : 1;
+      EXPECT_TRUE(message.empty() || message.rfind("car.glb: image 0 \"paint\": ", 0) == 0)
+          << at << ": " << message;
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
 TEST(JpegTexture, ofAHugeSizeIsRefusedBeforeItIsDecoded) {
   const Bytes frame = {0xff, 0xc0, 0x00, 0x11};
   Bytes bomb = kBaseline;
   const auto at = std::search(bomb.begin(), bomb.end(), frame.begin(), frame.end());
   ASSERT_NE(at, bomb.end());
-  std::fill(at + 5, at + 9, std::uint8_t{0xff});  // height and width
-  EXPECT_NE(complaint(bomb).find("image is 65535 x 65535 pixels"), std::string::npos) << complaint(bomb);
+  for (std::ptrdiff_t byte = 5; byte < 9; byte += 2) at[byte] = 0xff;  // height and width: 0xff08, 0xff10
+  EXPECT_NE(complaint(bomb).find("image is 65296 x 65288 pixels"), std::string::npos) << complaint(bomb);
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ struct Motion {
 std::ostream& operator<<(std::ostream& out, const Motion& m) { return out << m.name; }
 std::string nameOf(const ::testing::TestParamInfo<Motion>& info) { return info.param.name; }
 
-// ---- density
-// -------------------------------------------------------------------------------------------------------------------
+// ---- density ----
 
 class Density : public ::testing::TestWithParam<Motion> {};
 
@@ -77,8 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, Density,
                                            Motion{"turningAt50", 50, 0, 1.0472}),
                          nameOf);
 
-// ---- chance
-// --------------------------------------------------------------------------------------------------------------------
+// ---- chance ----
 
 // One of 4 x 4 x 4 cells of equal content of the view volume to `reach_m`. Across the picture the solid angle
 // is uniform in atan(u V / sqrt(1 + u^2 + V^2)) and, for a given u, in v / sqrt(1 + u^2 + v^2) (u, v: slopes,
@@ -149,8 +147,7 @@ TEST(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
   }
 }
 
-// ---- flux
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- flux ----
 
 constexpr size_t kFaces = 5;  // the four sides, and the sphere of the drop's reach
 
@@ -258,8 +255,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, Flux,
                                            Motion{"driving", 50, 100 * kKmh, 0}),
                          nameOf);
 
-// ---- nothing pops up
-// -------------------------------------------------------------------------------------------------------------
+// ---- nothing pops up ----
 
 class Appearance : public ::testing::TestWithParam<Motion> {};
 
@@ -329,8 +325,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, Appearance,
                                            Motion{"inCrosswind", 50, 0, 0, false, 20}),
                          nameOf);
 
-// ---- thinning
-// ------------------------------------------------------------------------------------------------------------------
+// ---- thinning ----
 
 // A full buffer keeps the same share of every size: no size, hence no distance, is favoured.
 TEST(Thinning, isTheSameForAllSizes) {

@@ -1,6 +1,7 @@
 // What a run reports, and that water is conserved in every scenario that is shipped.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "run_host.h"
@@ -46,23 +47,39 @@ TEST(Report, holdsWhatItPromises) {
   }
 }
 
-// Each term of the ledger is put to the test: somewhere it is more than a millilitre.
-TEST(Report, waterIsConservedInEveryScenarioAndEveryTermExceedsAMillilitreSomewhere) {
+// Terms of the ledger that a scenario is to put to the test, by more than a millilitre on one of its panes.
+const std::map<std::string, std::vector<const char*>> kTermsTested = {
+    {"drive", {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml"}},
+    {"fast", {"blown_ml"}},
+    {"drying", {"evaporated_ml"}}};
+
+std::vector<std::string> shippedScenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(RG_SOURCE_DIR "/scenarios"))
+    names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+class EveryScenario : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryScenario, conservesWater) {
+  const nlohmann::json json = runScenario(GetParam(), "--shots 0");
+  ASSERT_TRUE(json.is_object());
+  EXPECT_EQ(json["gl_errors"], 0);
   std::map<std::string, double> most;
-  for (const auto& entry : std::filesystem::directory_iterator(RG_SOURCE_DIR "/scenarios")) {
-    const std::string name = entry.path().stem().string();
-    const nlohmann::json json = runScenario(name, "--shots 0");
-    ASSERT_TRUE(json.is_object()) << name;
-    EXPECT_EQ(json["gl_errors"], 0) << name;
-    for (const auto& pane : json["panes"]) {
-      EXPECT_LE(pane["ledger_error"], kLedger) << name << " " << pane["name"];
-      for (const char* term :
-           {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml", "evaporated_ml"})
-        most[term] = std::max(most[term], pane[term].get<double>());
+  for (const auto& pane : json["panes"]) {
+    EXPECT_LE(pane["ledger_error"], kLedger) << pane["name"];
+    for (const auto& [term, ml] : pane.items()) {
+      if (ml.is_number()) most[term] = std::max(most[term], ml.get<double>());
     }
   }
-  for (const auto& [term, ml] : most) EXPECT_GT(ml, 1.0) << term;
+  const auto tested = kTermsTested.find(GetParam());
+  if (tested == kTermsTested.end()) return;
+  for (const char* term : tested->second) EXPECT_GT(most[term], 1.0) << term;
 }
+INSTANTIATE_TEST_SUITE_P(Shipped, EveryScenario, ::testing::ValuesIn(shippedScenarios()),
+                         [](const auto& name) { return name.param; });
 
 }  // namespace
 }  // namespace testing_host

@@ -1,5 +1,5 @@
-/* rainglass.h: the whole public interface of Rainglass. C11 (and C++), no other header of ours, GL names as
- * uint32_t.
+/* clang-format off */
+/* rainglass.h: the whole public interface of Rainglass. C11 (and C++), no other header of ours, GL names as uint32_t.
  *
  * Rainglass gives an OpenGL 4.5 driving simulator falling rain and water on its car's glass.
  *
@@ -8,21 +8,24 @@
  *   api = rg_get_entry(RG_ABI_MAJOR)                         the one exported symbol
  *   api->create                                              any thread
  *   api->attach_gl                                           GL thread, context current
- *   api->set_volume, set_vehicle, set_pane, set_wiper ...    any time; stable ids of your choice, 0 is never
- * an id each frame, one way: api->update            CPU thread   samples of your world with their times; runs
- * as many fixed ticks as the time says api->step_gpu          GL thread    uploads what is new, runs the
- * film's ticks api->prepare_captures  GL thread    (optional) your callback draws the scene behind the glass,
- * wide for each view: api->draw_world      GL thread    falling rain into your colour + depth api->draw_glass
- * GL thread    the panes, with the world behind them api->draw_finish     GL thread    whole-picture effects
+ *   api->set_volume, set_vehicle, set_pane, set_wiper ...    any time; stable ids of your choice, 0 is never an id
+ *   each frame, one way:
+ *     api->update            CPU thread   samples of your world with their times; runs as many fixed ticks as the time says
+ *     api->step_gpu          GL thread    uploads what is new, runs the film's ticks
+ *     api->prepare_captures  GL thread    (optional) your callback draws the scene behind the glass, wide
+ *     for each view:
+ *       api->draw_world      GL thread    falling rain into your colour + depth
+ *       api->draw_glass      GL thread    the panes, with the world behind them
+ *       api->draw_finish     GL thread    whole-picture effects
  *   api->detach_gl                                           GL thread, context current
  *   api->destroy                                             any thread
  *
  * FRAMES AND UNITS
  *
- *   World    z up, metres, double precision, right-handed. Time is an absolute count of nanoseconds on your
- * clock. Vehicle  x forward, y left, z up, origin where you like; a pose is worldFromVehicle. Eye OpenGL's: x
- * right, y up, looks along -z. `eye_from_world` maps world to eye; matrices are column-major. Wiper    seen
- * from outside, before the glass; angle counts about `axis` from `rest_direction`:
+ *   World    z up, metres, double precision, right-handed. Time is an absolute count of nanoseconds on your clock.
+ *   Vehicle  x forward, y left, z up, origin where you like; a pose is worldFromVehicle.
+ *   Eye      OpenGL's: x right, y up, looks along -z. `eye_from_world` maps world to eye; matrices are column-major.
+ *   Wiper    seen from outside, before the glass; angle counts about `axis` from `rest_direction`:
  *
  *                 blade (blade_m, its middle arm_m from the pivot)
  *                   \                       .
@@ -35,20 +38,19 @@
  *
  * RULES
  *
- *   Structs begin with `struct_size`: set it with the matching default_* function (or to sizeof). They grow
- * only at the end. Arrays carry a stride in bytes, so that a host compiled against an older header still
- * walks them right. The fixed structs (rg_pose, rg_wiper_knot, rg_glass_drop, rg_lamp) never grow. Pointers
- * in a struct are read during the call only; nothing of yours is kept, except callbacks with their user
- * pointers. Every function returns an rg_result; negative means: nothing was changed, last_error() tells why.
- * Positive means done, with a remark. GL: every call on the GL thread leaves your state as it found it (see
- * attach_gl). Preconditions that GL cannot ask or suspend: no transform feedback active and unpaused, no
- * query of target SAMPLES_PASSED / ANY_SAMPLES_PASSED / PRIMITIVES_* / TRANSFORM_FEEDBACK_* active, no
- * conditional render in progress. Timestamps are used, never TIME_ELAPSED. What you deleted while it was
- *   bound or in use (a program, a buffer) has lost its name and cannot be bound again: after a call it is
- * unbound. [thread: any one] a call of this kind may come from any thread, but not at once with another on
- * the same instance of the same kind. update (and what is marked [thread: as update]) may run at the same
- * time as the GL thread's functions; context_lost beside neither.
+ *   Structs begin with `struct_size`: set it with the matching default_* function (or to sizeof). They grow only at the end. Arrays carry a
+ *   stride in bytes, so that a host compiled against an older header still walks them right. The fixed structs (rg_pose, rg_wiper_knot,
+ *   rg_glass_drop, rg_lamp) never grow.
+ *   Pointers in a struct are read during the call only; nothing of yours is kept, except callbacks with their user pointers.
+ *   Every function returns an rg_result; negative means: nothing was changed, last_error() tells why. Positive means done, with a remark.
+ *   GL: every call on the GL thread leaves your state as it found it (see attach_gl). Preconditions that GL cannot ask or suspend: no
+ *   transform feedback active and unpaused, no query of target SAMPLES_PASSED / ANY_SAMPLES_PASSED / PRIMITIVES_* /
+ *   TRANSFORM_FEEDBACK_* active, no conditional render in progress. Timestamps are used, never TIME_ELAPSED. What you deleted while it was
+ *   bound or in use (a program, a buffer) has lost its name and cannot be bound again: after a call it is unbound.
+ *   [thread: any one] a call of this kind may come from any thread, but not at once with another on the same instance of the same kind.
+ *   update (and what is marked [thread: as update]) may run at the same time as the GL thread's functions; context_lost beside neither.
  */
+/* clang-format on */
 #ifndef RAINGLASS_H
 #define RAINGLASS_H
 
@@ -68,9 +70,7 @@ extern "C" {
 #define RG_EXPORT
 #endif
 
-/* ---- results
- * ------------------------------------------------------------------------------------------------------------------
- */
+/* ---- results ---- */
 
 typedef int32_t rg_result;
 enum {
@@ -94,9 +94,7 @@ typedef void (*rg_log_fn)(void* user, int32_t level, uint32_t message, const cha
 
 typedef struct rg_instance rg_instance;
 
-/* ---- creation
- * -----------------------------------------------------------------------------------------------------------------
- */
+/* ---- creation ---- */
 
 typedef struct rg_create_info {
   uint32_t struct_size;
@@ -268,9 +266,7 @@ typedef struct rg_wiper_info {
   double residual_film_m;   /* what a pass leaves; 0 .. 1e-4; default 1e-7 */
 } rg_wiper_info;
 
-/* ---- drawing
- * --------------------------------------------------------------------------------------------------------------------
- */
+/* ---- drawing ---- */
 
 typedef enum rg_color_space { RG_LINEAR_HDR = 0, RG_SRGB = 1 } rg_color_space;
 
@@ -340,9 +336,7 @@ typedef struct rg_capture_info {
   const rg_view* view; /* whose eye */
 } rg_capture_info;
 
-/* ---- what is asked
- * ----------------------------------------------------------------------------------------------------------------
- */
+/* ---- what is asked ---- */
 
 typedef struct rg_rain_stats {
   uint32_t struct_size;
@@ -404,9 +398,7 @@ typedef struct rg_glass_drop {
   double contact_angle_deg; /* 1 .. 170 */
 } rg_glass_drop;
 
-/* ---- the functions
- * ------------------------------------------------------------------------------------------------------------------
- */
+/* ---- the functions ---- */
 
 typedef struct rg_api {
   uint32_t struct_size;

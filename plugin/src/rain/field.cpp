@@ -122,8 +122,7 @@ struct Field::State {
   void describe(Picture& picture) const;
 };
 
-// ---- a tick
-// ------------------------------------------------------------------------------------------------------------------
+// ---- a tick ----
 
 void Field::State::start(const Tick& t) {
   if (!started) {
@@ -179,8 +178,7 @@ void Field::tick(const Tick& t) {
   s.fresh.clear();
 }
 
-// ---- views and cells
-// -----------------------------------------------------------------------------------------------------------
+// ---- views and cells ----
 
 void Field::State::followViews(const Tick& t) {
   for (auto& view : views) view->told = false;
@@ -327,8 +325,7 @@ void Field::State::thin() {
   }
 }
 
-// ---- births and shelter
-// --------------------------------------------------------------------------------------------------------
+// ---- births and shelter ----
 
 // The path of a class's drops: to come at today's wind, and back along the winds that were. What lies further
 // back than the last pieces is taken as one straight way.
@@ -468,8 +465,7 @@ void Field::State::retestCell(uint32_t index) {
   }
 }
 
-// ---- the rest of the interface
-// ---------------------------------------------------------------------------------------------------
+// ---- the rest of the interface ----
 
 Field::Field(const FieldSettings& settings) : state_(std::make_unique<State>(settings)) {}
 Field::~Field() = default;
