@@ -102,7 +102,6 @@ int runDrops(const Options& options) {
   plugin.attach(*context);
   plugin.setParameter("glass.internal_reflections", 6.0);
   plugin.addCar(flatPane(list));
-  plugin.placeDrops(1, list.drops);
 
   View eye;
   eye.eye_from_world =
@@ -114,6 +113,7 @@ int runDrops(const Options& options) {
   moment.view = view;
   plugin.tell(moment);
   plugin.update(0);
+  plugin.placeDrops(1, list.drops);  // after the tick: none has begun to run or to merge
   plugin.stepGpu();
 
   const Target target(*context, options.size_px);

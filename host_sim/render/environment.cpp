@@ -62,7 +62,7 @@ bool alike(const Sky& a, const Sky& b) {
 Environment::Environment(const GladGLContext& gl)
     : gl_(gl),
       sky_program_(gl, {"full.vert"}, {"cube.glsl", "sky_cube.frag"}),
-      picture_program_(gl, {"full.vert"}, {"cube.glsl", "latlong_cube.frag"}),
+      picture_program_(gl, {"full.vert"}, {"cube.glsl", "latlong.glsl", "latlong_cube.frag"}),
       prefilter_program_(gl, {"full.vert"}, {"cube.glsl", "prefilter.frag"}) {
   sky_ = makeCube(gl, kSkySize, 9);
   mirrored_ = makeCube(gl, kMirrorSize, kMips);

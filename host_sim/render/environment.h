@@ -37,6 +37,8 @@ class Environment {
   glm::vec3 groundRadiance() const { return lower_ * brightness_; }
   glm::vec3 horizonRadiance() const { return horizon_ * brightness_; }
   bool isPicture() const { return picture_ != 0; }
+  /// The latitude-longitude picture, or 0.
+  GLuint picture() const { return picture_; }
 
  private:
   static constexpr int kSkySize = 256, kMirrorSize = 128, kMips = 6;

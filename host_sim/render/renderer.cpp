@@ -45,6 +45,9 @@ struct Renderer::Self {
         shadow(gl),
         painter(gl),
         background(gl, {"full.vert"}, {"frame.glsl", "background.frag"}),
+        picture_background(gl, {"full.vert"}, {"latlong.glsl", "background.frag"}, {"PICTURE"}),
+        compressing(gl, {"full.vert"}, {"smooth.frag"}, {"COMPRESS"}),
+        smoothing(gl, {"full.vert"}, {"smooth.frag"}),
         tone(gl, {"full.vert"}, {"tone.frag"}) {
     gl.CreateVertexArrays(1, &no_vertices);
   }
@@ -56,9 +59,10 @@ struct Renderer::Self {
   Environment environment;
   Shadow shadow;
   Painter painter;
-  Program background, tone;
+  Program background, picture_background, compressing, smoothing, tone;
   GLuint no_vertices = 0;
   std::unique_ptr<MirrorPicture> mirror_picture;
+  std::unique_ptr<ColourPicture> unsmoothed;
   const Instance* nearest_car = nullptr;  ///< its wheels stand on the ground that mirrors, and it shades it
   std::deque<GpuScene> scenes;
   std::deque<Instance> instances;
@@ -78,6 +82,8 @@ struct Renderer::Self {
   Painted paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size,
                     bool mirror = false);
   void paintSky(const glm::mat4& clip_from_rel);
+  void smooth(const Target& target, double exposure);
+  void fill(const Program& program, GLuint from, GLuint framebuffer, glm::ivec2 size_px);
   void writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve);
   glm::vec4 lightAt(glm::dvec3 point_m, float& share) const;
 
@@ -211,8 +217,10 @@ bool Renderer::Self::paintMirror(const View& view, glm::ivec2 size_px, const Wha
 }
 
 void Renderer::Self::paintSky(const glm::mat4& clip_from_rel) {
-  background.use();
-  background.set("u_rel_from_clip", glm::inverse(clip_from_rel));
+  const Program& program = environment.isPicture() ? picture_background : background;
+  program.use();
+  program.set("u_rel_from_clip", glm::inverse(clip_from_rel));
+  gl.BindTextureUnit(0, environment.picture());
   gl.BindTextureUnit(4, environment.sky());
   gl.BindVertexArray(no_vertices);
   gl.Disable(GL_BLEND);
@@ -224,16 +232,31 @@ void Renderer::Self::paintSky(const glm::mat4& clip_from_rel) {
   gl.DepthMask(GL_TRUE);
 }
 
-void Renderer::Self::writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve) {
-  begin(framebuffer, target.sizePx());
+void Renderer::Self::smooth(const Target& target, double exposure) {
+  if (!unsmoothed || unsmoothed->sizePx() != target.sizePx())
+    unsmoothed = std::make_unique<ColourPicture>(gl, target.sizePx());
+  compressing.set("u_exposure", static_cast<float>(exposure));
+  fill(compressing, target.colour(), unsmoothed->framebuffer(), target.sizePx());
+  smoothing.set("u_texel", 1.0F / glm::vec2(target.sizePx()));
+  smoothing.set("u_exposure", static_cast<float>(exposure));
+  fill(smoothing, unsmoothed->texture(), target.framebuffer(), target.sizePx());
+}
+
+// Each pixel of a picture from another picture.
+void Renderer::Self::fill(const Program& program, GLuint from, GLuint framebuffer, glm::ivec2 size_px) {
+  begin(framebuffer, size_px);
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
-  gl.BindTextureUnit(0, target.colour());
-  tone.set("u_exposure", static_cast<float>(exposure));
-  tone.set("u_curve", curve ? 1 : 0);
-  tone.use();
+  gl.BindTextureUnit(0, from);
+  program.use();
   gl.BindVertexArray(no_vertices);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Self::writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve) {
+  tone.set("u_exposure", static_cast<float>(exposure));
+  tone.set("u_curve", curve ? 1 : 0);
+  fill(tone, target.colour(), framebuffer, target.sizePx());
 }
 
 glm::vec4 Renderer::Self::lightAt(glm::dvec3 point_m, float& share) const {
@@ -345,6 +368,13 @@ void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const gl
     const Painted painted = self.paintFrom(view, size_px, what, 0.012F);
     self.paintSky(turnedOnly(view));
     return painted;
+  });
+}
+
+void Renderer::smooth(const Target& target, double exposure) {
+  self_->timed("smooth", [&] {
+    self_->smooth(target, exposure);
+    return Painted{};
   });
 }
 

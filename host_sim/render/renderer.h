@@ -3,10 +3,9 @@
 // One picture, in this order (the plugin draws between the passes; see rainglass.h):
 //   renderer.beginFrame(sky)                       sky, shadows, lamps: once for all views of a moment
 //   renderer.drawWorld(view, target, whole)        sky, roads, and cars that are seen from outside
-//     rain
-//   renderer.drawParts(view, target, car, kWipers) the wipers' solid parts
-//     panes
-//   renderer.drawParts(view, target, car, kBody)   the cabin around the eye
+//   renderer.drawParts(view, target, car, kBody | kWipers)   the cabin around the eye
+//   renderer.smooth(target, exposure)              edges of all that is solid
+//     rain, panes
 //   renderer.toneMap(target, framebuffer, exposure)
 //
 // Frames: world z up, metres, double; everything that reaches the GPU is relative to the eye. Depth:
@@ -116,6 +115,9 @@ class Renderer {
   void drawWorld(const View& view, const Target& target, std::span<const InstanceId> whole = {});
   /// Draws parts (Parts, or'ed) of an instance into what is there.
   void drawParts(const View& view, const Target& target, InstanceId instance, unsigned parts);
+  /// Smooths the edges in the target's colour, as they will be seen at `exposure`: before rain and panes,
+  /// which are drawn smooth.
+  void smooth(const Target& target, double exposure);
   /// World as the glass sees it, for rg_capture_fn: sky and roads, coarser. Clears the framebuffer.
   void drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world,
                  const glm::dmat4& projection);

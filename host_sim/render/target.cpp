@@ -35,6 +35,21 @@ void Target::release() {
   framebuffer_ = colour_ = depth_ = 0;
 }
 
+ColourPicture::ColourPicture(const GladGLContext& gl, glm::ivec2 size_px) : gl_(gl), size_px_(size_px) {
+  gl.CreateTextures(GL_TEXTURE_2D, 1, &colour_);
+  gl.TextureStorage2D(colour_, 1, GL_RGBA16F, size_px.x, size_px.y);
+  gl.TextureParameteri(colour_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(colour_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TextureParameteri(colour_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.CreateFramebuffers(1, &framebuffer_);
+  gl.NamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, colour_, 0);
+}
+
+ColourPicture::~ColourPicture() {
+  gl_.DeleteFramebuffers(1, &framebuffer_);
+  gl_.DeleteTextures(1, &colour_);
+}
+
 MirrorPicture::MirrorPicture(const GladGLContext& gl, glm::ivec2 size_px) : gl_(gl), size_px_(size_px) {
   gl.CreateTextures(GL_TEXTURE_2D, 1, &colour_);
   gl.TextureStorage2D(colour_, 4, GL_RGBA16F, size_px.x, size_px.y);

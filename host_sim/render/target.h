@@ -31,6 +31,24 @@ class Target {
   GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
 };
 
+/// Colour alone, to be read between its pixels.
+class ColourPicture {
+ public:
+  ColourPicture(const GladGLContext& gl, glm::ivec2 size_px);
+  ~ColourPicture();
+  ColourPicture(const ColourPicture&) = delete;
+  ColourPicture& operator=(const ColourPicture&) = delete;
+
+  glm::ivec2 sizePx() const { return size_px_; }
+  std::uint32_t framebuffer() const { return framebuffer_; }
+  std::uint32_t texture() const { return colour_; }
+
+ private:
+  const GladGLContext& gl_;
+  glm::ivec2 size_px_;
+  GLuint framebuffer_ = 0, colour_ = 0;
+};
+
 /// Colour with mips, and depth: what wet ground mirrors.
 class MirrorPicture {
  public:

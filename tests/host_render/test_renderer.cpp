@@ -167,6 +167,41 @@ TEST_F(Drawn, aPictureOfTheSurroundingsIsSeenWhereItLies) {
   EXPECT_LE(middle.z, 2);
 }
 
+TEST_F(Drawn, smoothingBlendsASlantedEdgeInPlaceAndLeavesTheRest) {
+  // Bright above a line that rises one pixel in five, dark below it.
+  constexpr float kDark = 0.2F, kBright = 8.0F, kExposure = 0.5F;
+  const auto line = [](int x) { return 30 + x / 5; };
+  std::vector<glm::vec4> before, after(static_cast<std::size_t>(kSize.x * kSize.y));
+  for (int i = 0; i < kSize.x * kSize.y; ++i)
+    before.emplace_back(glm::vec3(i / kSize.x >= line(i % kSize.x) ? kBright : kDark), 1.0F);
+  const GladGLContext& gl = context->gl();
+  gl.TextureSubImage2D(target.colour(), 0, 0, 0, kSize.x, kSize.y, GL_RGBA, GL_FLOAT, before.data());
+  renderer.smooth(target, static_cast<double>(kExposure));
+  gl.GetTextureImage(target.colour(), 0, GL_RGBA, GL_FLOAT,
+                     static_cast<GLsizei>(after.size() * sizeof(glm::vec4)), after.data());
+  EXPECT_EQ(context->glErrors(), 0U);
+
+  const auto seen = [&](float radiance) { return radiance / (1.0F / kExposure + radiance); };
+  int blended = 0;
+  double moved = 0.0;
+  for (int y = 0; y < kSize.y; ++y) {
+    for (int x = 20; x < kSize.x - 20; ++x) {
+      const auto i = static_cast<std::size_t>(y * kSize.x + x);
+      const float now = after[i].x;
+      EXPECT_GE(now, kDark * 0.99F);  // half floats and the way there and back
+      EXPECT_LE(now, kBright * 1.01F);
+      if (std::abs(y - line(x)) > 3) {
+        EXPECT_NEAR(now, before[i].x, 1e-3F * before[i].x) << x << " " << y;  // half floats
+      }
+      blended += now > 2.0F * kDark && now < 0.5F * kBright ? 1 : 0;
+      moved += static_cast<double>(seen(now) - seen(before[i].x));
+    }
+  }
+  EXPECT_GT(blended, 60);  // of 120 columns, at least every second has a pixel between
+  // The edge stays where it is: what is added on one side is taken on the other, to a tenth of a pixel.
+  EXPECT_LT(std::abs(moved) / static_cast<double>(seen(kBright) - seen(kDark)) / 120.0, 0.1);
+}
+
 TEST_F(Drawn, captureClearsWhatWasThere) {
   renderer.addInstance(renderer.addScene(twoBoxes(), SceneFrame::Road));
   sky.rain_mm_h = 5.0;

@@ -390,7 +390,8 @@ typedef struct rg_parameter {
   double minimum, maximum, preset, value;
 } rg_parameter;
 
-/* Fixed. A drop placed on a pane: spherical cap on the outer face. */
+/* Fixed. A drop placed on a pane: spherical cap on the outer face. The pane's middle is that of its uvs'
+ * extent. */
 typedef struct rg_glass_drop {
   double u_m;               /* to the right of the pane's middle, seen from inside, looking out */
   double v_m;               /* up the pane from its middle */

@@ -106,6 +106,7 @@ void PaneMap::layGrid(const PaneInfo& info) {
     refusePane(info, "needs more than 4096 texels along a side");
   grid_.size = glm::ivec2(texels) + 2;
   grid_.uv_origin = least - info.texel_m / grid_.metres_per_uv;
+  middle_m_ = (0.5 * (least + most) - grid_.uv_origin) * grid_.metres_per_uv;
   texels_.resize(static_cast<size_t>(texelCount()));
 }
 
@@ -161,7 +162,6 @@ void PaneMap::rasterise(const PaneInfo& info) {
 void PaneMap::findDirections() {
   glm::dvec3 normal{0.0}, along_x{0.0}, along_y{0.0};
   glm::vec3 low{1e30f}, high{-1e30f};
-  glm::dvec2 grid_low{1e30}, grid_high{-1e30};
   for (int i = 0; i < texelCount(); ++i) {
     if (!inside(i)) continue;
     const PaneTexel& t = texel(i);
@@ -171,10 +171,7 @@ void PaneMap::findDirections() {
     along_y += area * glm::dvec3(t.along_y);
     low = glm::min(low, t.position_m);
     high = glm::max(high, t.position_m);
-    grid_low = glm::min(grid_low, middleOf(i));
-    grid_high = glm::max(grid_high, middleOf(i));
   }
-  middle_m_ = 0.5 * (grid_low + grid_high);
   centre_m_ = 0.5f * (low + high);
   for (const PaneTexel& t : texels_) {
     if (t.area_m2 > 0.0f) radius_m_ = std::max(radius_m_, glm::distance(t.position_m, centre_m_));
