@@ -76,6 +76,7 @@ void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::Pan
   object.vehicle = vehicle;
   object.active = active;
   object.sim = std::move(sim);
+  if (gl_) object.sim->attachFilm();
   panes_[id] = std::move(object);
 }
 
@@ -222,7 +223,7 @@ rain::FieldStats Frame::rainStats() {
 glass::PaneStats Frame::paneStats(uint32_t id) {
   const std::lock_guard lock(sim_);
   PaneObject& p = pane(id);
-  if (gl_) gl_->finish(id, p);
+  finishGlass();
   return p.sim->stats();
 }
 
@@ -230,8 +231,9 @@ uint64_t Frame::hash(bool with_glass) {
   const std::lock_guard lock(sim_);
   uint64_t h = field_.hash();
   if (!with_glass) return h;
+  finishGlass();
   for (auto& [id, p] : panes_) {
-    const uint64_t film = gl_ ? gl_->filmHash(id, p) : 0;
+    const uint64_t film = gl_ ? gl_->filmHash(id) : 0;
     for (const uint64_t part : {uint64_t{id}, p.sim->hash(), film})
       h = (h ^ part) * UINT64_C(0x100000001b3);  // FNV-1a's prime
   }

@@ -104,6 +104,8 @@ class Frame {
   void removeWipersOf(uint32_t pane);
   Gl& attached();
   void syncPanes(Gl& gl);
+  void leaveGl();
+  void finishGlass();  // runs what waits for the film, and waits for it; GL thread, locked
   void publish();
   void requireMoment(int64_t time_ns) const;
 

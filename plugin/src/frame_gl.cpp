@@ -69,18 +69,9 @@ Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
   gl::throwOnError(context->gl, "attach_gl");
 }
 
-void Frame::Gl::finish(uint32_t id, PaneObject& pane) {
-  const auto half = panes.find(id);
-  if (half == panes.end() || half->second.sim != pane.sim) return;
+uint64_t Frame::Gl::filmHash(uint32_t pane) const {
   const gl::StateGuard guarded = guard(kStepTouches);
-  half->second.gl->finish();
-}
-
-uint64_t Frame::Gl::filmHash(uint32_t id, PaneObject& pane) {
-  const auto half = panes.find(id);
-  if (half == panes.end() || half->second.sim != pane.sim) return 0;
-  const gl::StateGuard guarded = guard(kStepTouches);
-  return half->second.gl->hash();
+  return panes.at(pane).gl->hash();
 }
 
 void Frame::Gl::forget() {
@@ -102,6 +93,7 @@ void Frame::attach(const rg_gl_info& info) {
   timers_.attach(*made->context, info.force_finish_timer != 0);
   field_.publishAll(upload_);
   gl_ = std::move(made);
+  for (auto& [id, p] : panes_) p.sim->attachFilm();
 }
 
 void Frame::detach() {
@@ -115,7 +107,7 @@ void Frame::detach() {
     gl.look.reset();
     gl.film_programs.reset();
   }
-  gl_.reset();
+  leaveGl();
 }
 
 void Frame::contextLost() {
@@ -123,10 +115,16 @@ void Frame::contextLost() {
   const std::lock_guard lock(sim_);
   timers_.forget();
   gl.forget();
-  gl_.reset();
+  leaveGl();
 }
 
-// Panes are made by the CPU's side at any time; their GL half follows here, where the context is current.
+void Frame::leaveGl() {
+  gl_.reset();
+  for (auto& [id, p] : panes_) p.sim->detachFilm();
+}
+
+// Panes are made by the CPU's side at any time, and what they ask of their film waits; their GL half follows
+// here, where the context is current.
 void Frame::syncPanes(Gl& gl) {
   std::erase_if(gl.panes, [this](const auto& half) {
     const auto found = panes_.find(half.first);
@@ -136,6 +134,13 @@ void Frame::syncPanes(Gl& gl) {
     if (gl.panes.contains(id)) continue;
     gl.panes[id] = {p.sim, std::make_unique<glass::PaneGl>(gl.context->gl, gl.film_programs, p.sim)};
   }
+}
+
+void Frame::finishGlass() {
+  if (!gl_) return;
+  const gl::StateGuard guarded = gl_->guard(kStepTouches);
+  syncPanes(*gl_);
+  for (auto& [id, half] : gl_->panes) half.gl->finish();
 }
 
 void Frame::stepGpu() {

@@ -14,9 +14,8 @@ struct Frame::Gl {
 
   // All but the stages' own queries is touched under a guard made of this.
   gl::StateGuard guard(uint32_t touches) const { return {*context, touches, host_resets_state}; }
-  // As PaneGl::finish and hash, under a guard; a pane that is not yet here has no film.
-  void finish(uint32_t id, PaneObject& pane);
-  uint64_t filmHash(uint32_t id, PaneObject& pane);
+  // As PaneGl::hash, of a pane that has its half.
+  uint64_t filmHash(uint32_t pane) const;
   // The context is gone, or never to be current again: nothing is freed in it.
   void forget();
 

@@ -95,6 +95,7 @@ void FilmGl::clear() {
   wishes_.write(0, 0, 0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_INT, no_wishes.data());
   ridges_.zero();
   states_.zero();
+  dry_ = true;
 }
 
 void FilmGl::run(std::vector<FilmOrder>&& orders) {
@@ -127,7 +128,6 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
   const ReportLayout report(tiles_);
   for (size_t i = 0; i < orders.size(); ++i) {
     if (orders[i].clear) clear();
-    if (orders[i].clear) dry_ = true;
     if (!orders[i].adds.empty() || !orders[i].ridge_adds.empty()) {
       dry_ = false;
       watered_step_ = orders[i].step;

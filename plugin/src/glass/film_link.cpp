@@ -29,8 +29,7 @@ FilmLink::FilmLink(const PaneMap& map, Ledger& ledger)
       tile_thickness_m_(map.tileArea_m2().size(), 0.0f) {}
 
 void FilmLink::attach() {
-  attached_ = true;
-  clear_ = true;
+  if (std::exchange(attached_, true)) return;
   first_step_ = next_step_;
   last_reported_ = next_step_ - 1;
 }
@@ -58,7 +57,10 @@ void FilmLink::clear() {
   film_pl_ = ridge_pl_ = 0;
   first_step_ = next_step_;
   last_reported_ = next_step_ - 1;
-  clear_ = true;
+  if (!attached_) return;
+  FilmOrder dry;
+  dry.clear = true;
+  outbox_.push_back(std::move(dry));
 }
 
 void FilmLink::add(int texel, int64_t volume_pl) {
@@ -144,7 +146,6 @@ void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared
   }
   touched_.clear();
   order_.step = step;
-  order_.clear = std::exchange(clear_, false);
   order_.drive = std::move(drive);
   order_.info = info;
   order_.ordered_pl = std::exchange(gathered_pl_, 0);

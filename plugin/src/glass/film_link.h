@@ -55,7 +55,7 @@ class FilmLink {
   int64_t film_pl() const { return film_pl_; }
   int64_t ridge_pl() const { return ridge_pl_; }
   int64_t travelling_pl() const;
-  void clear();  // dry, at the next step
+  void clear();  // dry, before the next step
 
  private:
   struct Ordered {
@@ -65,7 +65,6 @@ class FilmLink {
   const PaneMap& map_;
   Ledger& ledger_;
   bool attached_ = false;
-  bool clear_ = true;
   int64_t first_step_ = 0, last_reported_ = -1, next_step_ = 0;
   FilmOrder order_;
   std::vector<int64_t> sums_;      // given to a texel in this step

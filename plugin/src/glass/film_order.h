@@ -28,8 +28,8 @@ struct SweepOrder {
 
 // Order of work in a step: takes, adds, ridge adds, sweeps one after the other, leaves, flow.
 struct FilmOrder {
-  int64_t step = 0;
-  bool clear = false;  // the film starts dry
+  int64_t step = -1;
+  bool clear = false;  // no step: the film is to be dry
   std::vector<shared::FilmTake> takes;
   std::vector<shared::FilmAdd> adds;
   std::vector<shared::RidgeAdd> ridge_adds;

@@ -245,6 +245,8 @@ void PaneSim::reset() {
   state_->film.clear();
   state_->blades.clear();
   state_->ledger = {};
+  state_->forces = {};
+  state_->now = {};
   state_->dropped_ticks = 0;
   state_->ticks += state_->ticks % kTicksPerFilmStep;  // film steps end with the same ticks as on a new pane
   state_->snapshot.reset();

@@ -139,7 +139,7 @@ class PaneSim {
   // runs it. Ticks ascend by one.
   void submit(const PaneTick& tick);
 
-  // Back to a dry pane; the ledger starts anew. PaneGl clears its film at its next step.
+  // Back to a dry pane; the ledger starts anew. PaneGl clears its film when it is next called.
   void reset();
 
   std::shared_ptr<const PaneSnapshot> snapshot() const;

@@ -487,6 +487,7 @@ void Field::setVisibility(const Visibility& visibility) {
 void Field::reset() {
   state_->forgetCells();
   state_->started = false;
+  state_->keep = 1.0;
   state_->born = state_->died = state_->sheltered = 0;
   state_->tests_before = state_->shelter.tests();
 }

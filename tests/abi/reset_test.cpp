@@ -1,0 +1,89 @@
+// After reset() an instance is as a fresh one: the same samples give the same state and the same pictures.
+#include <gtest/gtest.h>
+
+#include "gl_fixture.h"
+#include "picture.h"
+#include "small_scene.h"
+
+namespace rg::test {
+namespace {
+
+constexpr int kSize_px = SmallScene::kSize_px;
+
+// What an instance shows of itself at a moment.
+struct Seen {
+  uint64_t state = 0;
+  Picture picture;
+};
+
+class Reset : public GlTest {
+ protected:
+  Reset() {
+    gl.CreateRenderbuffers(1, &color);
+    gl.NamedRenderbufferStorage(color, GL_RGBA16F, kSize_px, kSize_px);
+    gl.CreateFramebuffers(1, &framebuffer);
+    gl.NamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+  }
+  ~Reset() override {
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteRenderbuffers(1, &color);
+  }
+
+  Seen look(const SmallScene& scene) const {
+    // A bright sky above dark ground, so that drops, which turn the picture round, are seen.
+    const std::array<float, 4> ground{0.05f, 0.05f, 0.05f, 1.0f}, sky{1.0f, 1.0f, 1.0f, 1.0f};
+    gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, ground.data());
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Scissor(0, kSize_px / 2, kSize_px, kSize_px / 2);
+    gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, sky.data());
+    gl.Disable(GL_SCISSOR_TEST);
+    scene.expect(scene.draw(scene.api.draw_world, scene.target(framebuffer)));
+    scene.expect(scene.draw(scene.api.draw_glass, scene.target(framebuffer)));
+    Seen seen;
+    seen.picture = readFramebuffer(gl, framebuffer, kSize_px, kSize_px);
+    scene.expect(scene.api.get_hash(scene.instance, RG_HASH_STATE, &seen.state));
+    return seen;
+  }
+
+  // The first frames of the scene, each looked at.
+  std::vector<Seen> drive(SmallScene& scene, int frames) const {
+    std::vector<Seen> all;
+    scene.steps = 0;
+    for (int i = 0; i < frames; ++i) {
+      scene.expect(scene.step());
+      scene.expect(scene.api.step_gpu(scene.instance));
+      all.push_back(look(scene));
+    }
+    return all;
+  }
+
+  PluginLibrary plugin;
+  GLuint color = 0, framebuffer = 0;
+};
+
+// Half a second: longer than the film's reports take, so that drops have come of film and film of drops.
+// Before it an odd and an even number of ticks, too few for a report, and a soaked pane.
+TEST_F(Reset, givesTheStateAndThePicturesOfAFreshInstance) {
+  constexpr int kFrames = 30;
+  SmallScene fresh(*plugin.api), used(*plugin.api);
+  fresh.expect(fresh.attach(GlContext::getProc));
+  used.expect(used.attach(GlContext::getProc));
+  const std::vector<Seen> expected = drive(fresh, kFrames);
+  ASSERT_GT(greatestDifference(expected.front().picture, expected.back().picture), 0.1f) << "nothing is seen";
+  for (const int frames_before : {1, 2, 40}) {
+    drive(used, frames_before);
+    used.expect(used.api.reset(used.instance));
+    const std::vector<Seen> found = drive(used, kFrames);
+    for (size_t i = 0; i < kFrames; ++i) {
+      ASSERT_EQ(found[i].state, expected[i].state) << "frame " << i << ", reset after " << frames_before;
+      ASSERT_EQ(greatestDifference(found[i].picture, expected[i].picture), 0.0f)
+          << "frame " << i << ", reset after " << frames_before;
+    }
+    used.expect(used.api.reset(used.instance));
+  }
+  fresh.expect(fresh.api.detach_gl(fresh.instance));
+  used.expect(used.api.detach_gl(used.instance));
+}
+
+}  // namespace
+}  // namespace rg::test
