@@ -224,6 +224,7 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   s.camera = top.text("camera", "cockpit");
   if (std::ranges::find(kCameras, s.camera) == std::end(kCameras))
     top.refuse("camera", "\"" + s.camera + "\" is none of cockpit, outside, front, side, free");
+  if (top.find("white_cd_m2") != nullptr) s.white_cd_m2 = top.number("white_cd_m2", 0.0, 1e-3, 1e9);
   s.headlights = top.flag("headlights", true);
   Reader models = top.section("models");
   s.car = modelPath(models.text("car", "models/car.glb"), root);

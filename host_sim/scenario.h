@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,6 +42,9 @@ struct Scenario {
   double sun_azimuth_deg = 140.0;
   std::vector<WiperSwitch> wipers;
   std::string camera = "cockpit";
+  // Luminance that is white in a picture of fixed exposure without tone curve, as a camera takes it; none:
+  // the driver's eye adapts.
+  std::optional<double> white_cd_m2;
   bool headlights = true;
   std::vector<std::pair<std::string, double>> parameters;  // the plugin's, by name
 };

@@ -173,13 +173,17 @@ void Stage::draw(int64_t time_ns, const Target& target, uint32_t framebuffer, in
   else
     renderer_->drawWorld(eye.view, target, std::span(&*car_instance_, 1));
   if (inside) renderer_->drawParts(eye.view, target, *car_instance_, kBody | kWipers);
-  const double exposure = exposureFor(simulation_->adaptedLuminance());
+  const double exposure =
+      scenario_.white_cd_m2 ? 1000.0 / *scenario_.white_cd_m2 : exposureFor(simulation_->adaptedLuminance());
   renderer_->smooth(target, exposure);
   plugin_->drawWorld(plugin_ns, view, target, light);
   plugin_->drawGlass(plugin_ns, view, target,
                      lightAt(light, static_cast<float>(renderer_->skyVisibility(eye.position_m))));
   plugin_->drawFinish(plugin_ns, view, target, light);
-  renderer_->toneMap(target, framebuffer, exposure);
+  if (scenario_.white_cd_m2)
+    renderer_->encodeSrgb(target, framebuffer, exposure);
+  else
+    renderer_->toneMap(target, framebuffer, exposure);
 }
 
 void Stage::fillReport(Report& report) {

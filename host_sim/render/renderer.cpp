@@ -385,8 +385,8 @@ void Renderer::toneMap(const Target& target, std::uint32_t framebuffer, double e
   });
 }
 
-void Renderer::encodeSrgb(const Target& target, std::uint32_t framebuffer) {
-  self_->writePicture(target, framebuffer, 1.0, false);
+void Renderer::encodeSrgb(const Target& target, std::uint32_t framebuffer, double exposure) {
+  self_->writePicture(target, framebuffer, exposure, false);
 }
 
 double Renderer::skyVisibility(glm::dvec3 point_m) const {

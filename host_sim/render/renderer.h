@@ -124,8 +124,8 @@ class Renderer {
   /// Writes the target's colour, times `exposure`, through a filmic curve as sRGB into `framebuffer` (0: the
   /// window), its size the target's.
   void toneMap(const Target& target, std::uint32_t framebuffer, double exposure);
-  /// As toneMap without the curve: exposure 1, sRGB encoding only.
-  void encodeSrgb(const Target& target, std::uint32_t framebuffer);
+  /// As toneMap without the curve: sRGB encoding only.
+  void encodeSrgb(const Target& target, std::uint32_t framebuffer, double exposure = 1.0);
 
   /// Share of the sky's light that reaches a point: 1 in the open, near 0 deep in a tunnel.
   double skyVisibility(glm::dvec3 point_m) const;

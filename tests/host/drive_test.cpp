@@ -123,12 +123,14 @@ TEST(Scenario, allThatAreShippedLoad) {
 }
 
 TEST(Scenario, changesFromTheCommandLineReachIt) {
-  const Scenario s = loadScenario(
-      "drive", {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off", "plugin.rain.gain=2"},
-      RG_SOURCE_DIR);
+  const Scenario s = loadScenario("drive",
+                                  {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off",
+                                   "plugin.rain.gain=2", "white_cd_m2=5000"},
+                                  RG_SOURCE_DIR);
   EXPECT_EQ(s.rain_mm_h.at(0.0), 12.5);
   EXPECT_EQ(s.seconds, 3.0);
   EXPECT_EQ(s.camera, "outside");
+  EXPECT_EQ(s.white_cd_m2, 5000.0);
   EXPECT_EQ(wiperModeAt(s, 30.0), WiperMode::off);
   ASSERT_EQ(s.parameters.size(), 1U);
   EXPECT_EQ(s.parameters[0].first, "rain.gain");
@@ -152,6 +154,7 @@ TEST(Scenario, wrongInputIsNamedInOneLine) {
                                                         {"wipers=3", "wipers"},
                                                         {"camera=moon", "camera"},
                                                         {"seconds=-4", "seconds"},
+                                                        {"white_cd_m2=0", "white_cd_m2"},
                                                         {"drive=5", "drive"},
                                                         {"drive.stops=[[1]]", "stops"},
                                                         {"nonsense", "nonsense"},
