@@ -13,30 +13,34 @@ namespace rg::test {
 
 inline constexpr uint32_t kCar = 1, kPane = 1, kWiper = 1, kRoof = 1, kView = 1;
 
-// A view along world +x from `eye`, 90 degrees across, OpenGL's own depth.
-inline rg_view viewAlongX(const rg_api& api, const std::array<double, 3>& eye_m, int size_px) {
+// Where a host's world has its origin, and what its depth buffer holds.
+struct Habits {
+  double origin_m = 0.0;  // the scene lies there, along x and y
+  bool reversed = false;  // infinite, clip space from 0 to 1; else OpenGL's own
+  static constexpr double kNear_m = 0.1, kFar_m = 500.0;
+
+  std::array<double, 2> depthRow() const {  // clip z = [0] * eye z + [1], clip w = -eye z
+    if (reversed) return {0.0, kNear_m};
+    return {-(kFar_m + kNear_m) / (kFar_m - kNear_m), -2.0 * kFar_m * kNear_m / (kFar_m - kNear_m)};
+  }
+  float storedDepth(double distance_m) const {
+    const double ndc = -depthRow()[0] + depthRow()[1] / distance_m;
+    return static_cast<float>(reversed ? ndc : 0.5 * ndc + 0.5);
+  }
+  float farthest() const { return reversed ? 0.0f : 1.0f; }
+};
+
+// A view along world +x from `eye`, 90 degrees across.
+inline rg_view viewAlongX(const rg_api& api, const std::array<double, 3>& eye_m, int size_px,
+                          const Habits& habits) {
   rg_view view;
   api.default_view(&view);
   const std::array<double, 16> eye{0, 0, -1, 0, -1, 0, 0, 0, 0, 1, 0, 0, eye_m[1], -eye_m[2], eye_m[0], 1};
-  constexpr double kNear_m = 0.1, kFar_m = 500.0;
-  const std::array<double, 16> projection{1,
-                                          0,
-                                          0,
-                                          0,
-                                          0,
-                                          1,
-                                          0,
-                                          0,
-                                          0,
-                                          0,
-                                          -(kFar_m + kNear_m) / (kFar_m - kNear_m),
-                                          -1,
-                                          0,
-                                          0,
-                                          -2.0 * kFar_m * kNear_m / (kFar_m - kNear_m),
-                                          0};
+  const auto [z, w] = habits.depthRow();
+  const std::array<double, 16> projection{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, z, -1, 0, 0, w, 0};
   std::memcpy(view.eye_from_world, eye.data(), sizeof view.eye_from_world);
   std::memcpy(view.projection, projection.data(), sizeof view.projection);
+  view.clip_zero_to_one = view.reversed_depth = habits.reversed ? 1 : 0;
   view.viewport_px[2] = view.viewport_px[3] = size_px;
   view.vehicle = kCar;
   return view;
@@ -44,7 +48,8 @@ inline rg_view viewAlongX(const rg_api& api, const std::array<double, 3>& eye_m,
 
 class SmallScene {
  public:
-  explicit SmallScene(const rg_api& table, uint32_t max_drops = 20000) : api(table) {
+  explicit SmallScene(const rg_api& table, uint32_t max_drops = 20000, const Habits& of_host = {})
+      : api(table), habits(of_host) {
     rg_create_info info;
     api.default_create_info(&info);
     info.max_drops = max_drops;
@@ -58,8 +63,9 @@ class SmallScene {
   SmallScene& operator=(const SmallScene&) = delete;
 
   rg_result setRoof() const {
-    const std::array<double, 24> corners{20, -5, 4, 30, -5, 4, 20, 5, 4, 30, 5, 4,
-                                         20, -5, 0, 30, -5, 0, 20, 5, 0, 30, 5, 0};
+    std::array<double, 24> corners{20, -5, 4, 30, -5, 4, 20, 5, 4, 30, 5, 4,
+                                   20, -5, 0, 30, -5, 0, 20, 5, 0, 30, 5, 0};
+    for (size_t i = 0; i < corners.size(); ++i) corners[i] += i % 3 < 2 ? habits.origin_m : 0.0;
     rg_volume_info volume;
     api.default_volume_info(&volume);
     volume.vertices_m = corners.data();
@@ -100,16 +106,17 @@ class SmallScene {
   // One sixtieth of a second.
   rg_result step() {
     time_ns = ++steps * INT64_C(1'000'000'000) / 60;
-    const double x = 10.0 * static_cast<double>(time_ns) * 1e-9;
+    const double x = habits.origin_m + 10.0 * static_cast<double>(time_ns) * 1e-9;
     rg_weather weather;
     api.default_weather(&weather);
-    weather.rain_mm_h = 100.0;
+    weather.rain_mm_h = rain_mm_h;
     rg_vehicle car;
     api.default_vehicle(&car);
     car.id = kCar;
     car.pose.position_m[0] = x;
+    car.pose.position_m[1] = habits.origin_m;
     car.pose.velocity_mps[0] = 10.0;
-    view = viewAlongX(api, {x, 0.0, 1.2}, kSize_px);
+    view = viewAlongX(api, {x, habits.origin_m, 1.2}, kSize_px, habits);
     view.id = kView;
     const rg_wiper_knot knot{time_ns, kWiper, 0, -0.7 - 0.7 * std::sin(static_cast<double>(steps) * 0.2)};
     rg_sample sample;
@@ -160,6 +167,8 @@ class SmallScene {
 
   static constexpr int kSize_px = 64;
   const rg_api& api;
+  const Habits habits;
+  double rain_mm_h = 100.0;
   rg_instance* instance = nullptr;
   rg_view view{};
   int64_t time_ns = 0;
