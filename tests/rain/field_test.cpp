@@ -151,5 +151,23 @@ TEST(Shelter, noStreakIsEverDrawnInsideAVolumeInStormAndBraking) {
   EXPECT_GT(field.stats().sheltered_at_birth, 1000u);
 }
 
+// The longest exposure at 290 km/h: half a streak reaches 10 m beyond its drop.
+TEST(Shelter, clipsLongStreaksAtVolumesFarBeyondTheirDrops) {
+  constexpr double kSpeed_mps = 80.0, kWall_m = 100.0;
+  Field field;
+  const std::vector<Roof> walls = {{{kWall_m, -50, -10}, {kWall_m + 50, 50, 20}}};
+  ASSERT_EQ(setBox(field, 1, walls[0].low, walls[0].high), "");
+  Scene scene = sceneWithView(100);
+  scene.views[0].exposure_s = 0.25;
+  std::vector<Streak> streaks;
+  uint64_t clipped = 0;
+  drive(field, scene, kSpeed_mps, 0.0, 140, [&](int) {
+    field.streaks(scene.views[0], tickTimeNs(scene.index), streaks);
+    ASSERT_FALSE(anyInside(streaks, walls, dvec3(0.0))) << "tick " << scene.index;
+    for (const Streak& s : streaks) clipped += s.from_m.x > kWall_m - 0.1 || s.to_m.x > kWall_m - 0.1 ? 1 : 0;
+  });
+  EXPECT_GT(clipped, 100u);
+}
+
 }  // namespace
 }  // namespace rg::rain::test

@@ -19,7 +19,7 @@ constexpr uint32_t kEndUnits = 1024;         // as shared::kRainEndUnits
 constexpr uint32_t kEndless = 1u << 30;      // ticks' units ahead: 2.4 h, longer than any drop stays in view
 constexpr double kLongestEnd_s = 8000.0;     // ends beyond are none
 constexpr int64_t kLongestGap = 2048;        // ticks left out at once; more is a seek
-constexpr double kLongestStreak_m = 5.0;     // beyond the reach a volume may still be met by a streak
+constexpr double kGoneOn_m = 5.0;            // what an eye may go on from a tick to its pictures
 constexpr double kCeilingAboveEye_m = 10.0;  // rain that sets in is first seen there
 constexpr double kLeastTurn_radps = 1.0472;  // 60 deg/s: a turn of the view that needs no warning
 constexpr double kFilled =
@@ -52,6 +52,7 @@ struct FollowedView {
   bool moved = false;  // `eye_m` and `worldFromEye` are of the tick before
   dvec3 eye_m{0.0};
   glm::dquat worldFromEye{1, 0, 0, 0};
+  double streak_m = 0.0;  // of the longest streak, from the drop to its end
   uint32_t current = 0;
   std::array<std::array<RowSet, kClasses>, 2> rows;
 };
@@ -218,12 +219,14 @@ void Field::State::followView(FollowedView& view, const ViewState& told) {
 
   const uint32_t before = view.current, after = 1 - before;
   view.current = after;
+  view.streak_m = 0.0;
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
     const ClassLattice& lattice = classLattices()[kind];
     const dvec3 past = classVelocity(kind) - velocity;
     Margin margin;
     margin.ahead_m = past * (1.25 * kTickSeconds);  // a quarter to spare
     margin.streak_m = past * (0.5 * exposureOf(told));
+    view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
     const double reach = reachPerDiameter() * 1e-3 * lattice.drops.to_mm;
     margin.sides_m = 0.02 + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
     margin.reach_m = reach + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
@@ -544,10 +547,13 @@ void Field::State::describe(Picture& picture) const {
   }
   picture.volumes.clear();
   std::vector<dvec3> eyes;
+  double streak_m = 0.0;
   for (const auto& view : views) {
-    if (view->moved) eyes.push_back(view->eye_m);
+    if (!view->moved) continue;
+    eyes.push_back(view->eye_m);
+    streak_m = std::max(streak_m, view->streak_m);
   }
-  shelter.near(eyes, reachPerDiameter() * 1e-3 * kLargest_mm + kLongestStreak_m, picture.volumes);
+  shelter.near(eyes, reachPerDiameter() * 1e-3 * kLargest_mm + streak_m + kGoneOn_m, picture.volumes);
 }
 
 void Field::publish(Upload& upload) {
