@@ -16,7 +16,6 @@ layout(location = 1) in uvec4 record_rest;  // fraction_z_class, diameter_m, end
 layout(location = 0) out vec3 streak_at;           // along and across the streak, -1..1; depth along the view, m
 layout(location = 1) flat out vec4 streak_colour;  // rgb: as the target holds it; a: mean cover
 
-const float kNearest_m = 0.08;
 const float kSharpFrom_m = 0.5;      // nearer drops are out of any lens's focus: spread until they cannot be seen
 const float kLeastWidth_px = 1.7;    // narrower streaks would be broken into dots by the pixel grid: spread and paler instead
 const float kDensest = 0.85;         // no streak hides what is behind it
@@ -79,8 +78,8 @@ void main() {
   float approach = dot(streak.velocity_mps, look.forward.xyz);
   float from = streak.from_s, to = streak.to_s;
   // The part before the eye.
-  if (depth + approach * from < kNearest_m) from = approach > 0.0 ? (kNearest_m - depth) / approach : 1.0;
-  if (depth + approach * to < kNearest_m) to = approach < 0.0 ? (kNearest_m - depth) / approach : -1.0;
+  if (depth + approach * from < kRainNearest_m) from = approach > 0.0 ? (kRainNearest_m - depth) / approach : 1.0;
+  if (depth + approach * to < kRainNearest_m) to = approach < 0.0 ? (kRainNearest_m - depth) / approach : -1.0;
   if (from >= to) {
     drawNothing();
     return;
@@ -114,6 +113,6 @@ void main() {
   float middle_width_px = sqrt(middle_px * middle_px + kLeastWidth_px * kLeastWidth_px);
   float whole_px = max(drawn_px * 2.0 * half_s / (to - from), middle_width_px);
   float cover = look.focal.z * rainCover(middle_px) / (whole_px * middle_width_px);
-  float focus = smoothstep(kNearest_m, kSharpFrom_m, middle_depth);
+  float focus = smoothstep(kRainNearest_m, kSharpFrom_m, middle_depth);
   streak_colour = vec4(asInTarget(gathered(streak.drop_m)), min(cover, kDensest) * streak.fade * focus);
 }

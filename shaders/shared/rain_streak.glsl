@@ -5,8 +5,10 @@
 #include "shared/rain_drop.glsl"
 RG_SHARED_BEGIN
 
+RG_CONST float kRainNearest_m = 0.08f;  // along the view: what of a streak is nearer to the eye is not drawn
+
 // A streak as seen from the eye, world axes: the drop's place, its velocity past the eye, and the times about the picture's between which
-// the streak is drawn. from_s > to_s: nothing is drawn.
+// the streak is drawn. from_s >= to_s: nothing is drawn.
 struct RainStreak {
   vec3 drop_m;
   vec3 velocity_mps;

@@ -596,7 +596,7 @@ void Field::streaks(const ViewState& view, int64_t time_ns, std::vector<Streak>&
     const uint32_t kind = shared::rainClassOf(drop);
     const shared::RainStreak streak =
         shared::rainStreak(drop, setup->classes[kind], setup->view, setup->shelter);
-    if (streak.from_s > streak.to_s) continue;
+    if (streak.from_s >= streak.to_s) continue;
     const dvec3 place = dvec3(streak.drop_m) + eye, velocity(streak.velocity_mps);
     out.push_back({slot, kind, static_cast<double>(drop.diameter_m), place,
                    place + velocity * static_cast<double>(streak.from_s),

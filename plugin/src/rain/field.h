@@ -92,8 +92,8 @@ class Field {
   void publish(Upload& upload);
   void publishAll(Upload& upload);  // every live drop: for a fresh GL context; replaces what is in it
 
-  // The streaks that would be drawn for a view at a time, by the very kernel that draws them. For tests and
-  // debugging.
+  // The streaks that would be drawn for a view at a time, by the very kernel that draws them (which then
+  // leaves out what is behind the eye or nearer than kRainNearest_m). For tests and debugging.
   void streaks(const ViewState& view, int64_t time_ns, std::vector<Streak>& out) const;
 
  private:
