@@ -47,11 +47,20 @@ TEST(Report, holdsWhatItPromises) {
   }
 }
 
-// Terms of the ledger that a scenario is to put to the test, by more than a millilitre on one of its panes.
-const std::map<std::string, std::vector<const char*>> kTermsTested = {
-    {"drive", {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml"}},
-    {"fast", {"blown_ml"}},
-    {"drying", {"evaporated_ml"}}};
+// Terms of the ledger that a scenario is to put to the test, by more than a millilitre on one of its panes,
+// and after how long it does.
+struct TermsTested {
+  double after_s = 8.0;
+  std::vector<const char*> terms{};
+};
+const std::map<std::string, TermsTested> kTermsTested = {
+    {"downpour", {12.0, {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml"}}},
+    {"drying", {20.0, {"evaporated_ml"}}}};
+
+TermsTested termsTestedBy(const std::string& scenario) {
+  const auto found = kTermsTested.find(scenario);
+  return found == kTermsTested.end() ? TermsTested{} : found->second;
+}
 
 std::vector<std::string> shippedScenarios() {
   std::vector<std::string> names;
@@ -61,10 +70,8 @@ std::vector<std::string> shippedScenarios() {
   return names;
 }
 
-class EveryScenario : public ::testing::TestWithParam<std::string> {};
-
-TEST_P(EveryScenario, conservesWater) {
-  const nlohmann::json json = runScenario(GetParam(), "--shots 0");
+void expectWaterConserved(const std::string& scenario, const std::string& options) {
+  const nlohmann::json json = runScenario(scenario, "--shots 0 " + options);
   ASSERT_TRUE(json.is_object());
   EXPECT_EQ(json["gl_errors"], 0);
   std::map<std::string, double> most;
@@ -74,12 +81,20 @@ TEST_P(EveryScenario, conservesWater) {
       if (ml.is_number()) most[term] = std::max(most[term], ml.get<double>());
     }
   }
-  const auto tested = kTermsTested.find(GetParam());
-  if (tested == kTermsTested.end()) return;
-  for (const char* term : tested->second) EXPECT_GT(most[term], 1.0) << term;
+  for (const char* term : termsTestedBy(scenario).terms) EXPECT_GT(most[term], 1.0) << term;
 }
-INSTANTIATE_TEST_SUITE_P(Shipped, EveryScenario, ::testing::ValuesIn(shippedScenarios()),
-                         [](const auto& name) { return name.param; });
+
+class EveryScenario : public ::testing::TestWithParam<std::string> {};
+TEST_P(EveryScenario, conservesWaterInItsFirstSeconds) {
+  expectWaterConserved(GetParam(), "--seconds " + std::to_string(termsTestedBy(GetParam()).after_s));
+}
+
+class LongEveryScenario : public ::testing::TestWithParam<std::string> {};
+TEST_P(LongEveryScenario, conservesWaterToItsEnd) { expectWaterConserved(GetParam(), ""); }
+
+std::string nameOf(const ::testing::TestParamInfo<std::string>& scenario) { return scenario.param; }
+INSTANTIATE_TEST_SUITE_P(Shipped, EveryScenario, ::testing::ValuesIn(shippedScenarios()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Long, LongEveryScenario, ::testing::ValuesIn(shippedScenarios()), nameOf);
 
 }  // namespace
 }  // namespace testing_host
