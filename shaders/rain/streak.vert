@@ -15,6 +15,7 @@ layout(location = 1) in uvec4 record_rest;  // fraction_z_class, diameter_m, end
 
 layout(location = 0) out vec3 streak_at;           // along and across the streak, -1..1; depth along the view, m
 layout(location = 1) flat out vec4 streak_colour;  // rgb: as the target holds it; a: mean cover
+out vec3 segment_end_m;  // of what is drawn, from the eye: for transform feedback; no stage takes it, so that the linker leaves it out else
 
 const float kSharpFrom_m = 0.5;      // nearer drops are out of any lens's focus: spread until they cannot be seen
 const float kLeastWidth_px = 1.7;    // narrower streaks would be broken into dots by the pixel grid: spread and paler instead
@@ -65,6 +66,7 @@ void drawNothing() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   streak_at = vec3(0.0);
   streak_colour = vec4(0.0);
+  segment_end_m = vec3(0.0);
 }
 
 void main() {
@@ -94,6 +96,7 @@ void main() {
   bool at_end = (gl_VertexID & 1) != 0;
   float side = (gl_VertexID & 2) != 0 ? 1.0 : -1.0;
   vec3 p = at_end ? b : a;
+  segment_end_m = p;
   float p_depth = dot(p, look.forward.xyz);
   float diameter_px = drop.diameter_m * look.focal.y / p_depth;
   float width_px = sqrt(diameter_px * diameter_px + kLeastWidth_px * kLeastWidth_px);

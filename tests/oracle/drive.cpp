@@ -6,11 +6,6 @@
 namespace oracle {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int64_t kFrame_ns = 5 * 205'000'000 / 3;  // a sanitized build is some ten times slower
-#else
-constexpr int64_t kFrame_ns = 205'000'000 / 3;  // 8.2 ticks, 14.6 a second
-#endif
 constexpr double kG_mps2 = 9.81;
 
 std::vector<Hull> hullsOf(const std::vector<host::ShelterView>& shelters) {
@@ -37,12 +32,13 @@ const Drive::Models& Drive::models() {
   return models;
 }
 
-Drive::Drive(const Variant& variant)
+Drive::Drive(const Variant& variant, double frame_s)
     : scenario_(scenarioOf(variant)),
       plugin_(rainOnlyApi(), scenario_.seed),
       simulation_(scenario_, models().car, models().road, plugin_, {1280, 720}),
       road_hulls_(hullsOf(models().road.shelters)),
-      car_hulls_(hullsOf(models().car.shelters)) {
+      car_hulls_(hullsOf(models().car.shelters)),
+      frame_s_(frame_s) {
   forgetVolumes(!variant.sheltered);
   plugin_.addRoad(models().road);
   plugin_.addCar(models().car);
@@ -54,10 +50,11 @@ Drive::Drive(const Variant& variant)
 }
 
 bool Drive::next() {
-  time_ns_ = ++frame_ * kFrame_ns;
+  const int64_t before_ns = time_ns_;
+  time_ns_ = std::llround(static_cast<double>(++frame_) * frame_s_ * 1e9);
   if (time_s() > scenario_.seconds) return false;
   // In steps of a tick, as the car's place decides when it brakes.
-  for (int64_t t = std::max<int64_t>(0, time_ns_ - kFrame_ns); t < time_ns_; t += 8'333'333) {
+  for (int64_t t = before_ns; t < time_ns_; t += 8'333'333) {
     simulation_.advance(t);
     if (brake_for_) brake();
     hardest_braking_mps2 = std::max(hardest_braking_mps2, -simulation_.driver().state().acceleration_mps2);

@@ -10,24 +10,25 @@
 #include "rain/field.h"
 #include "rain_only.h"
 #include "simulation.h"
+#include "variants.h"
 
 namespace oracle {
 
-struct Variant {
-  std::string scenario;
-  std::vector<std::string> changes{};  // as --set
-  std::string camera = "cockpit";
-  std::string
-      brake_for{};  // shelter of the road on entering which the car brakes at 1 g to a stop; empty: none
-  bool sheltered = true;
-};
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr double kRarer = 5.0;  // a sanitized build is some ten times slower
+#else
+inline constexpr double kRarer = 1.0;
+#endif
+// Between frames that are samples of a drive: not whole ticks, so that they fall on ticks and at fifths
+// between.
+inline constexpr double kSampledFrame_s = (8.0 * kRarer + 0.2) / 120.0;
+inline constexpr double kRareFrame_s = (40.0 * kRarer + 0.2) / 120.0;
 
 class Drive {
  public:
-  explicit Drive(const Variant& variant);
+  explicit Drive(const Variant& variant, double frame_s = kSampledFrame_s);
 
-  // Goes on to the next frame; false after the scenario's end. Frames are 8.2 ticks apart, so that they fall
-  // on ticks and at fifths between.
+  // Goes on to the next frame; false after the scenario's end.
   bool next();
 
   // ---- of the frame ----
@@ -36,6 +37,7 @@ class Drive {
   rg::ViewState view() const;
   host::CarState car() const { return simulation_.carAt(time_ns_); }
   rg::rain::Field& field() { return *rainOnly(plugin_.instance()).field; }
+  uint32_t capacity_drops() { return rainOnly(plugin_.instance()).capacity_drops; }
   glm::dvec3 wind_mps() const { return simulation_.weather().wind_mps; }
   double rain_mm_h() const { return simulation_.weather().rain_mm_h; }
 
@@ -61,6 +63,7 @@ class Drive {
   std::vector<Hull> road_hulls_, car_hulls_;
   std::optional<size_t> brake_for_;
   bool braking_ = false;
+  double frame_s_;
   int64_t time_ns_ = 0, frame_ = -1;
 };
 

@@ -12,6 +12,7 @@ bool forget_volumes = false;
 rg_result create(const rg_create_info* in, rg_instance** out) {
   const rg_create_info info = rg::readCreateInfo(in);
   auto* made = new RainOnly;
+  made->capacity_drops = info.max_drops;
   made->field = std::make_unique<rg::rain::Field>(rg::rain::FieldSettings{info.max_drops, info.seed});
   *out = reinterpret_cast<rg_instance*>(made);
   return RG_OK;

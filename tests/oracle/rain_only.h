@@ -12,6 +12,7 @@ namespace oracle {
 
 struct RainOnly {
   rg::Timeline timeline;
+  uint32_t capacity_drops = 0;
   std::unique_ptr<rg::rain::Field> field;
   int64_t next_tick = INT64_MIN;
 };

@@ -46,39 +46,6 @@ Tally tally(Drive& drive) {
   return t;
 }
 
-const Variant kVariants[] = {
-    {.scenario = "tunnel"},
-    {.scenario = "canopy"},
-    {.scenario = "tunnel", .camera = "outside"},
-    {.scenario = "canopy", .camera = "outside"},
-    {.scenario = "tunnel", .changes = {"weather.wind_y_mps=40"}},
-    {.scenario = "canopy", .changes = {"weather.wind_y_mps=40"}},
-    {.scenario = "tunnel", .changes = {"weather.wind_x_mps=-40"}},
-    {.scenario = "canopy", .changes = {"weather.wind_x_mps=-40"}},
-    {.scenario = "canopy",
-     .changes = {"weather.wind_x_mps=30", "weather.wind_y_mps=-27"},
-     .camera = "outside"},
-    {.scenario = "tunnel", .changes = {"drive.speed_kmh=80"}, .brake_for = "tunnel_0"},
-    {.scenario = "canopy", .changes = {"drive.speed_kmh=50", "drive.stops=[[1,0]]"}, .brake_for = "canopy"},
-    {.scenario = "tunnel",
-     .changes = {"drive.speed_kmh=80", "weather.wind_x_mps=-40"},
-     .brake_for = "tunnel_0"},
-    {.scenario = "canopy",
-     .changes = {"drive.speed_kmh=50", "drive.stops=[[1,0]]", "weather.wind_y_mps=40"},
-     .camera = "outside",
-     .brake_for = "canopy"},
-};
-
-std::string nameOf(const Variant& v) {
-  std::string name = v.scenario + "_" + v.camera;
-  for (const std::string& c : v.changes) {
-    if (c.starts_with("weather.")) name += c.substr(7);
-  }
-  if (!v.brake_for.empty()) name += "_1g";
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : c == '-' ? 'm' : '_';
-  return name;
-}
-
 class Drives : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(Drives, drawNoStreakInsideAnyVolumeAtAnyFrame) {
