@@ -7,9 +7,8 @@
 namespace rg {
 namespace {
 
-constexpr double kFarthest_m = 1e8;           // beyond this a double no longer resolves a drop (1.5e-8 m)
-constexpr double kFastest_mps = 1000.0;       // for bodies and eyes
-constexpr double kStrongestWind_mps = 100.0;  // header's range
+constexpr double kFarthest_m = 1e8;      // beyond this a double no longer resolves a drop (1.5e-8 m)
+constexpr double kFastest_mps = 1000.0;  // for bodies and eyes
 constexpr uint32_t kMostBodies = 4096, kMostViews = 64, kMostKnots = 65536;
 constexpr int32_t kFarthestViewport_px = 32768;  // either way from the target's corner
 constexpr double kUnitTolerance = 1e-3;          // header's range for unit quaternions

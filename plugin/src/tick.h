@@ -36,6 +36,8 @@ struct VehicleState {
   bool discontinuity = false;
 };
 
+inline constexpr double kStrongestWind_mps = 100.0;  // along an axis, as the ABI takes it
+
 struct WeatherState {
   double rain_mm_h = 0.0;
   glm::dvec3 wind_mps{0.0};

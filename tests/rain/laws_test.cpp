@@ -19,6 +19,7 @@ struct Motion {
   double turn_radps;           // steadily, or when swinging the fastest
   bool swings = false;         // to and fro, three times in four seconds
   double crosswind_mps = 0.0;  // in Appearance
+  double gust_mps = 0.0;       // swings of it, once in 3 s
   double headingAt(double t) const {
     constexpr double kOften = 2.0 * 3.14159265358979 * 0.75;
     return swings ? turn_radps / kOften * std::sin(kOften * t) : turn_radps * t;
@@ -276,7 +277,6 @@ TEST_P(Appearance, isOnlyEverFromOutsideTheView) {
   const Motion motion = GetParam();
   Field field({.capacity = 200000, .seed = 9});
   Scene scene = sceneWithView(motion.rate_mm_h);
-  scene.weather.wind_mps = {0, motion.crosswind_mps, 0};
   const auto at = [&](double ticks, ViewState& view) {
     const double t = ticks * kTickSeconds;
     look(view, {motion.speed_mps * t, 0, 1.5}, motion.headingAt(t));
@@ -287,6 +287,9 @@ TEST_P(Appearance, isOnlyEverFromOutsideTheView) {
   uint64_t appeared = 0, popped = 0;
   for (; scene.index < 400; ++scene.index) {
     at(static_cast<double>(scene.index), scene.views[0]);
+    const double gust =
+        std::sin(2.0 * 3.14159265358979 * static_cast<double>(scene.index) * kTickSeconds / 3.0);
+    scene.weather.wind_mps = {0, motion.crosswind_mps + motion.gust_mps * gust, 0};
     field.tick(scene.tick());
     field.publishAll(upload);
     now.assign(200000, RainDrop{});
@@ -322,7 +325,8 @@ INSTANTIATE_TEST_SUITE_P(Motions, Appearance,
                                            Motion{"turning", 50, 0, 1.0472},
                                            Motion{"swinging", 50, 0, 1.0472, true},
                                            Motion{"drivingAndSwinging", 50, 100 * kKmh, 1.0472, true},
-                                           Motion{"inCrosswind", 50, 0, 0, false, 20}),
+                                           Motion{"inCrosswind", 50, 0, 0, false, 20},
+                                           Motion{"inGusts", 50, 10, 0, false, 10, 8}),
                          nameOf);
 
 // ---- thinning ----

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "rain/cells.h"
+#include "rain/class_frames.h"
 #include "rain/drops.h"
-#include "rain/motion.h"
 #include "rain/region.h"
 #include "rain/shelter.h"
 #include "rain/standing.h"
@@ -24,7 +24,6 @@ constexpr double kCeilingAboveEye_m = 10.0;  // rain that sets in is first seen 
 constexpr double kLeastTurn_radps = 1.0472;  // 60 deg/s: a turn of the view that needs no warning
 constexpr double kFilled =
     0.93;  // of the buffer that the expected number may take: 7 % for chance and the cells' edges
-constexpr double kStrongestWind_mps = 100.0;  // along an axis, as the ABI's
 constexpr double kThinningStep = 0.02;  // thinning changes in steps, so that it is not felt at every tick
 
 uint64_t mixed(uint64_t a, uint64_t b) {
@@ -35,13 +34,6 @@ uint64_t mixed(uint64_t a, uint64_t b) {
 }
 
 bool usable(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-// What carries the lattice must stay a number: one NaN would stop the rain for good.
-dvec3 windOf(const Tick& t) {
-  return usable(t.weather.wind_mps)
-             ? glm::clamp(t.weather.wind_mps, dvec3(-kStrongestWind_mps), dvec3(kStrongestWind_mps))
-             : dvec3(0.0);
-}
 
 }  // namespace
 
@@ -68,36 +60,28 @@ struct Field::State {
 
   FieldSettings settings;
   Visibility visibility;
+  WindProfile profile;  // from the next tick on
   Drops drops;
   std::vector<float> threshold;  // by slot, as Candidate's
   Cells cells;
   Shelter shelter;
-  WindPath wind;
+  ClassFrames frames;
   RateHistory rate;
   std::vector<std::unique_ptr<FollowedView>> views;
 
   bool started = false;  // the lattice has its origin
   bool running = false;  // since the last seek a tick has been
   int64_t epoch = 0, tick = 0;
-  dvec3 origin_m{0.0};  // of the lattice, without wind and fall
   double ceiling_m = 0.0;
   double keep = 1.0;  // share of the law's drops that is born
   std::array<uint32_t, kClasses> cells_of{};
   std::vector<uint32_t> fresh;  // cells that came into view in this tick
   std::vector<CellKey> left;    // cells that a view left in this tick
-  ClassPath path;
   uint64_t born = 0, died = 0, sheltered = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
   uint32_t now() const { return static_cast<uint32_t>(static_cast<uint64_t>(tick - epoch) * kEndUnits); }
   double reachPerDiameter() const { return visibility.factor * visibility.reference_px; }
-  dvec3 classVelocity(uint32_t kind) const {
-    return wind.wind_mps() - dvec3(0, 0, classLattices()[kind].drops.speed_mps);
-  }
-  // World position of the corner of cell (0, 0, 0).
-  dvec3 classOrigin(uint32_t kind) const {
-    return origin_m + wind.carried_m() - dvec3(0, 0, classLattices()[kind].drops.speed_mps * time_s());
-  }
 
   void start(const Tick& t);
   void moveTo(const Tick& t);
@@ -111,12 +95,11 @@ struct Field::State {
   void emptyCell(uint32_t index);
   void expireDrops();
   void thin();
-  void findPath(uint32_t kind);
   dvec3 cellMiddle(const CellKey& key) const;
   bool lookAround(const CellKey& key, bool past);
   void fillCell(uint32_t index);
   bool birth(uint32_t index, const Candidate& candidate, const RateHistory::Entry& then, bool near_volume);
-  void retest(bool all);
+  void retest();
   void retestCell(uint32_t index);
   dvec3 placeOf(const RainDrop& drop) const;
   bool endOf(double after_s, uint32_t& end) const;
@@ -127,17 +110,15 @@ struct Field::State {
 
 void Field::State::start(const Tick& t) {
   if (!started) {
-    epoch = t.index;
-    origin_m = !t.vehicles.empty() ? t.vehicles[0].pose.position_m
-               : !t.views.empty()  ? coneOf(t.views[0]).eye_m
-                                   : dvec3(0.0);
-    if (!usable(origin_m)) origin_m = dvec3(0.0);
+    epoch = tick = t.index;
+    const dvec3 origin_m = !t.vehicles.empty() ? t.vehicles[0].pose.position_m
+                           : !t.views.empty()  ? coneOf(t.views[0]).eye_m
+                                               : dvec3(0.0);
+    frames.start(usable(origin_m) ? origin_m : dvec3(0.0), usableWind(t));
     started = true;
-    tick = t.index;
-    wind.start(0.0, dvec3(0.0), windOf(t));
   } else {
     tick = t.index;
-    wind.start(time_s(), wind.carried_m(), windOf(t));
+    frames.resume(usableWind(t));
   }
   rate.fill(t.weather.rain_mm_h);
   shelter.restart();
@@ -162,18 +143,18 @@ void Field::tick(const Tick& t) {
   if (s.running && (t.index < s.tick || t.index - s.tick > kLongestGap)) seek(t.index);
   if (!s.running && s.started && t.index != s.tick) seek(t.index);
   Shelter::Changes changes;
-  bool gust = false;
+  bool gust = s.frames.setProfile(s.profile);
   if (!s.running) {
     s.start(t);
   } else {
     s.moveTo(t);
-    gust = s.wind.advance(s.time_s(), windOf(t));
+    gust = s.frames.advance(s.time_s(), usableWind(t)) || gust;
   }
   changes = s.shelter.advance(s.time_s(), t.vehicles);
   s.followViews(t);
   s.dropLeftCells();
   s.expireDrops();
-  if (changes.volumes || changes.bodies || gust) s.retest(changes.volumes || changes.bodies);
+  if (changes.volumes || changes.bodies || gust) s.retest();
   s.thin();
   for (const uint32_t cell : s.fresh) s.fillCell(cell);
   s.fresh.clear();
@@ -222,7 +203,7 @@ void Field::State::followView(FollowedView& view, const ViewState& told) {
   view.streak_m = 0.0;
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
     const ClassLattice& lattice = classLattices()[kind];
-    const dvec3 past = classVelocity(kind) - velocity;
+    const dvec3 past = frames.velocity(kind) - velocity;
     Margin margin;
     margin.ahead_m = past * (1.25 * kTickSeconds);  // a quarter to spare
     margin.streak_m = past * (0.5 * exposureOf(told));
@@ -230,7 +211,7 @@ void Field::State::followView(FollowedView& view, const ViewState& told) {
     const double reach = reachPerDiameter() * 1e-3 * lattice.drops.to_mm;
     margin.sides_m = 0.02 + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
     margin.reach_m = reach + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
-    findRows(cone, margin, (cone.eye_m - classOrigin(kind)) / lattice.cell_m, lattice.cell_m,
+    findRows(cone, margin, (cone.eye_m - frames.origin(kind)) / lattice.cell_m, lattice.cell_m,
              view.rows[after][kind]);
     replaceRows(view.rows[before][kind], view.rows[after][kind], kind);
     view.rows[before][kind].clear();
@@ -330,42 +311,14 @@ void Field::State::thin() {
 
 // ---- births and shelter ----
 
-// The path of a class's drops: to come at today's wind, and back along the winds that were. What lies further
-// back than the last pieces is taken as one straight way.
-void Field::State::findPath(uint32_t kind) {
-  const double t = time_s(), fall = classLattices()[kind].drops.speed_mps;
-  const dvec3 velocity = classVelocity(kind);
-  const double longest_s = Shelter::kPath_m / std::max(glm::length(velocity), 0.1);
-  path.pieces[0] = {0.0, longest_s, dvec3(0.0), velocity};
-  path.count = 1;
-  double until = 0.0;
-  dvec3 carried = wind.carried_m();
-  for (uint32_t age = 0; age < wind.pieces() && until > -longest_s; ++age) {
-    const bool oldest = age + 1 == wind.pieces() || path.count + 1 == ClassPath::kMost;
-    const WindPath::Piece& then = wind.piece(age);
-    const double from = then.from_s - t;
-    if (from >= until && !oldest) continue;
-    const double span = until - from;
-    dvec3 v = span > 1e-9 ? (carried - then.carried_m) / span : then.wind_mps;
-    const double begin = oldest ? -longest_s : std::max(from, -longest_s);
-    v.z -= fall;
-    const dvec3 to_m = carried - wind.carried_m() - dvec3(0, 0, fall * until);
-    path.pieces[path.count++] = {begin, until, to_m + v * (begin - until), v};
-    if (oldest) break;
-    until = begin;
-    carried = then.carried_m;
-  }
-}
-
 dvec3 Field::State::cellMiddle(const CellKey& key) const {
-  return classOrigin(key.kind) + (dvec3(key.x, key.y, key.z) + 0.5) * classLattices()[key.kind].cell_m;
+  return frames.origin(key.kind) + (dvec3(key.x, key.y, key.z) + 0.5) * classLattices()[key.kind].cell_m;
 }
 
 bool Field::State::lookAround(const CellKey& key, bool past) {
   if (shelter.empty()) return false;
-  findPath(key.kind);
-  return shelter.lookAround(cellMiddle(key), dvec3(0.5 * classLattices()[key.kind].cell_m), path, time_s(),
-                            past);
+  return shelter.lookAround(cellMiddle(key), dvec3(0.5 * classLattices()[key.kind].cell_m),
+                            frames.path(key.kind), time_s(), past);
 }
 
 void Field::State::fillCell(uint32_t index) {
@@ -409,6 +362,7 @@ bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateH
   bool ends = false;
   if (near_volume) {
     const dvec3 place = placeOf(drop);
+    const ClassPath& path = frames.path(key.kind);
     const double enters_s = shelter.willEnter(place, path, time_s());
     if (enters_s <= 0.0 || shelter.cameThrough(place, path, time_s())) {
       ++sheltered;
@@ -426,8 +380,8 @@ bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateH
 dvec3 Field::State::placeOf(const RainDrop& drop) const {
   const uint32_t kind = shared::rainClassOf(drop);
   const dvec3 fraction(drop.fraction_xy & 0xffffu, drop.fraction_xy >> 16, drop.fraction_z_class & 0xffffu);
-  return classOrigin(kind) + (dvec3(drop.cell_x, drop.cell_y, drop.cell_z) + (fraction + 0.5) * 0x1p-16) *
-                                 classLattices()[kind].cell_m;
+  return frames.origin(kind) + (dvec3(drop.cell_x, drop.cell_y, drop.cell_z) + (fraction + 0.5) * 0x1p-16) *
+                                   classLattices()[kind].cell_m;
 }
 
 // Rounded down, so that the drop does not outlive its entry.
@@ -437,14 +391,12 @@ bool Field::State::endOf(double after_s, uint32_t& end) const {
   return ends;
 }
 
-// What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked
-// again where they end. Where they came from has not changed: drops that never were stay so. `all`: cells
-// that were not near a volume may be so now.
-void Field::State::retest(bool all) {
+// What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked again
+// where they end, also in cells that were not near a volume before. Where they came from has not changed:
+// drops that never were stay so.
+void Field::State::retest() {
   for (uint32_t index = 0; index < cells.poolSize(); ++index) {
-    const Cell& cell = cells[index];
-    if (cell.views == 0 || cell.first_drop == kNone) continue;
-    if (all || cell.near_volume) retestCell(index);
+    if (cells[index].views > 0 && cells[index].first_drop != kNone) retestCell(index);
   }
 }
 
@@ -455,7 +407,9 @@ void Field::State::retestCell(uint32_t index) {
   cell.near_volume = near_volume;
   for (uint32_t slot = cell.first_drop; slot != kNone;) {
     const uint32_t next = drops.nextInCell(slot);
-    const double enters_s = near_volume ? shelter.willEnter(placeOf(drops[slot]), path, time_s()) : kNever_s;
+    const double enters_s =
+        near_volume ? shelter.willEnter(placeOf(drops[slot]), frames.path(cell.key.kind), time_s())
+                    : kNever_s;
     uint32_t end = 0;
     const bool ends = endOf(enters_s, end);
     if (enters_s <= 0.0) {
@@ -487,6 +441,8 @@ void Field::setVisibility(const Visibility& visibility) {
     ours.reference_px = std::clamp(visibility.reference_px, 100.0, 10000.0);
 }
 
+void Field::setWindProfile(const WindProfile& profile) { state_->profile = profile; }
+
 void Field::reset() {
   state_->forgetCells();
   state_->started = false;
@@ -499,15 +455,13 @@ void Field::seek(int64_t tick_index) {
   State& s = *state_;
   s.forgetCells();
   if (!s.started) return;
-  const dvec3 wind = s.wind.wind_mps();
-  const dvec3 carried = s.wind.carried_m() + wind * (static_cast<double>(tick_index - s.tick) * kTickSeconds);
   s.tick = tick_index;
-  s.wind.start(s.time_s(), carried, wind);
+  s.frames.jump(s.time_s());
 }
 
 void Field::rebase(const dvec3& shift_m) {
   State& s = *state_;
-  s.origin_m -= shift_m;
+  s.frames.shift(shift_m);
   s.ceiling_m -= shift_m.z;
   for (auto& view : s.views) view->eye_m -= shift_m;
   s.shelter.shift(shift_m);
@@ -542,7 +496,7 @@ void Field::State::describe(Picture& picture) const {
   picture.epoch_ticks = static_cast<uint32_t>(tick - epoch);
   picture.slot_end = drops.end();
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
-    picture.classes[kind] = {classOrigin(kind), classVelocity(kind), classLattices()[kind].cell_m,
+    picture.classes[kind] = {frames.origin(kind), frames.velocity(kind), classLattices()[kind].cell_m,
                              reachPerDiameter()};
   }
   picture.volumes.clear();

@@ -18,6 +18,7 @@
 
 #include "rain/picture.h"
 #include "rain/volume.h"
+#include "rain/wind_profile.h"
 #include "tick.h"
 
 namespace rg::rain {
@@ -70,6 +71,8 @@ class Field {
 
   // Drops that are born from now on reach as far as this says. Values are clamped to their range.
   void setVisibility(const Visibility& visibility);
+  // What share of the ticks' wind drops have, from the next tick on.
+  void setWindProfile(const WindProfile& profile);
 
   // Takes the field to the tick's time. Ticks may leave out indices (time passes); one that lies before the
   // last is taken as seek() to it. No allocation, but for a view or number of cells not met before.

@@ -26,6 +26,37 @@ bool WindPath::advance(double time_s, const dvec3& wind_mps) {
   return true;
 }
 
+// Whether the starts of the pieces between `first` and `to` lie by the chord from `to`'s start to the given
+// end.
+bool WindPath::isStraight(double until_s, const dvec3& until_m, uint32_t first, uint32_t to) const {
+  constexpr double kMore_per_s = 4.0;  // of kDeparture_m
+  const double leave_m = kDeparture_m * (1.0 + kMore_per_s * (time_s_ - until_s));
+  const Piece& begin = pieces_[to];
+  const dvec3 chord_mps = (until_m - begin.carried_m) / (until_s - begin.from_s);
+  for (uint32_t age = first; age < to; ++age) {
+    const dvec3 on_chord = begin.carried_m + chord_mps * (pieces_[age].from_s - begin.from_s);
+    if (glm::distance(on_chord, pieces_[age].carried_m) > leave_m) return false;
+  }
+  return true;
+}
+
+void WindPath::trace(Past& past) const {
+  past.count = 0;
+  double until_s = time_s_;
+  dvec3 until_m = carried_m_;
+  for (uint32_t first = 0; first < pieces_.size() && past.count < Past::kMost;) {
+    uint32_t to = first;
+    while (to + 1 < pieces_.size() && isStraight(until_s, until_m, first, to + 1)) ++to;
+    const Piece& begin = pieces_[to];
+    const double span_s = until_s - begin.from_s;
+    past.stretches[past.count++] = {begin.from_s, begin.carried_m,
+                                    span_s > 0.0 ? (until_m - begin.carried_m) / span_s : begin.wind_mps};
+    until_s = begin.from_s;
+    until_m = begin.carried_m;
+    first = to + 1;
+  }
+}
+
 Pose movedOn(const Pose& pose, double seconds) {
   Pose moved = pose;
   moved.position_m += pose.velocity_mps * seconds;

@@ -39,6 +39,14 @@ class WindPath {
     glm::dvec3 carried_m{0.0};  // at from_s
     glm::dvec3 wind_mps{0.0};
   };
+  // The way so far as few straight stretches, newest first; each from `from_s` to where the one before it
+  // began. They leave the way by what a prediction may, 1 cm, and by 4 cm more for each second back. The
+  // oldest goes on without end.
+  struct Past {
+    static constexpr uint32_t kMost = 31;
+    std::array<Piece, kMost> stretches;
+    uint32_t count = 0;
+  };
   void start(double time_s, const glm::dvec3& carried_m, const glm::dvec3& wind_mps);
   // Takes the wind to `time_s`, linear in between. True when a new piece had to begin: ends told from the old
   // one are no longer right.
@@ -46,10 +54,11 @@ class WindPath {
 
   const glm::dvec3& carried_m() const { return carried_m_; }
   const glm::dvec3& wind_mps() const { return wind_mps_; }
-  uint32_t pieces() const { return pieces_.size(); }
-  const Piece& piece(uint32_t age) const { return pieces_[age]; }
+  void trace(Past& past) const;
 
  private:
+  bool isStraight(double until_s, const glm::dvec3& until_m, uint32_t first, uint32_t to) const;
+
   Recent<Piece, 256> pieces_;
   glm::dvec3 carried_m_{0.0}, wind_mps_{0.0};
   double time_s_ = 0.0;

@@ -29,7 +29,7 @@ struct PathPiece {
 
 // The path of a class: the first piece is the way to come, the others the way it came, newest first.
 struct ClassPath {
-  static constexpr uint32_t kMost = 18;
+  static constexpr uint32_t kMost = 1 + WindPath::Past::kMost;
   std::array<PathPiece, kMost> pieces;
   uint32_t count = 0;
 };

@@ -1,0 +1,89 @@
+#include "rain/class_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rain/standing.h"
+
+namespace rg::rain {
+
+using glm::dvec3;
+
+// What carries the lattice must stay a number: one NaN would stop the rain for good.
+dvec3 usableWind(const Tick& tick) {
+  const dvec3& wind = tick.weather.wind_mps;
+  const bool usable = std::isfinite(wind.x) && std::isfinite(wind.y) && std::isfinite(wind.z);
+  return usable ? glm::clamp(wind, dvec3(-kStrongestWind_mps), dvec3(kStrongestWind_mps)) : dvec3(0.0);
+}
+
+void ClassFrames::start(const dvec3& origin_m, const dvec3& wind_mps) {
+  time_s_ = 0.0;
+  origin_m_ = origin_m;
+  moved_m_.fill(dvec3(0.0));
+  wind_.start(0.0, dvec3(0.0), wind_mps);
+  past_.count = 0;
+}
+
+void ClassFrames::jump(double time_s) {
+  const dvec3 wind = wind_.wind_mps();
+  const dvec3 carried = wind_.carried_m() + wind * (time_s - time_s_);
+  time_s_ = time_s;
+  wind_.start(time_s, carried, wind);
+  past_.count = 0;
+}
+
+void ClassFrames::resume(const dvec3& wind_mps) {
+  wind_.start(time_s_, wind_.carried_m(), wind_mps);
+  past_.count = 0;
+}
+
+bool ClassFrames::advance(double time_s, const dvec3& wind_mps) {
+  time_s_ = time_s;
+  past_.count = 0;
+  return wind_.advance(time_s, wind_mps);
+}
+
+bool ClassFrames::setProfile(const WindProfile& profile) {
+  if (profile.drop_share == profile_.drop_share) return false;
+  for (uint32_t kind = 0; kind < kSpeedClasses; ++kind)
+    moved_m_[kind] += (profile_.drop_share[kind] - profile.drop_share[kind]) * wind_.carried_m();
+  profile_ = profile;
+  past_.count = 0;
+  return true;
+}
+
+dvec3 ClassFrames::velocity(uint32_t kind) const {
+  return profile_.drop_share[kind] * wind_.wind_mps() - dvec3(0, 0, classLattices()[kind].drops.speed_mps);
+}
+
+dvec3 ClassFrames::origin(uint32_t kind) const {
+  return origin_m_ + moved_m_[kind] + profile_.drop_share[kind] * wind_.carried_m() -
+         dvec3(0, 0, classLattices()[kind].drops.speed_mps * time_s_);
+}
+
+const ClassPath& ClassFrames::path(uint32_t kind) {
+  if (past_.count > 0 && path_of_ == kind) return path_;
+  if (past_.count == 0) wind_.trace(past_);
+  findPath(kind);
+  path_of_ = kind;
+  return path_;
+}
+
+void ClassFrames::findPath(uint32_t kind) {
+  const double fall = classLattices()[kind].drops.speed_mps, share = profile_.drop_share[kind];
+  const double longest_s = Shelter::kPath_m / std::max(glm::length(velocity(kind)), 0.1);
+  path_.pieces[0] = {0.0, longest_s, dvec3(0.0), velocity(kind)};
+  path_.count = 1;
+  double until = 0.0;
+  dvec3 to_m(0.0);
+  for (uint32_t i = 0; i < past_.count && until > -longest_s; ++i) {
+    const WindPath::Piece& then = past_.stretches[i];
+    const double begin = i + 1 == past_.count ? -longest_s : std::max(then.from_s - time_s_, -longest_s);
+    const dvec3 v = share * then.wind_mps - dvec3(0, 0, fall);
+    to_m += v * (begin - until);
+    path_.pieces[path_.count++] = {begin, until, to_m, v};
+    until = begin;
+  }
+}
+
+}  // namespace rg::rain
