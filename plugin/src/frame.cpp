@@ -139,6 +139,7 @@ rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
   for (const Sample& s : samples) timeline_.add(s);
   if (timeline_.empty()) refuse("the first update needs a sample", RG_ERROR_WRONG_ORDER);
 
+  tellSettings();
   const int64_t last = tickAt(time_ns);
   if (!started_) {
     next_tick_ = std::min(tickAt(timeline_.first().time_ns), last);
@@ -154,11 +155,18 @@ rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
   return dropped > 0 ? RG_REMARK_TIME_DROPPED : field_.stats().thinning < 1.0 ? RG_REMARK_THINNED : RG_OK;
 }
 
+// To those who run the ticks.
+void Frame::tellSettings() {
+  timeline_.setGusts({seed_, settings_.wind_gust_share, settings_.wind_gust_time_s});
+  wind_profile_ = rain::WindProfile::of(settings_.wind_roughness_m, settings_.wind_height_m);
+  field_.setWindProfile(wind_profile_);
+  field_.setVisibility({settings_.rain_visibility_factor, settings_.rain_reference_px});
+}
+
 void Frame::runTick(int64_t index, bool rain_only) {
   const Tick& tick = timeline_.tick(index);
   {
     const gl::ScopedStage timed(timers_, stage_.rain_tick);
-    field_.setVisibility({settings_.rain_visibility_factor, settings_.rain_reference_px});
     field_.tick(tick);
   }
   if (rain_only) return;

@@ -98,6 +98,7 @@ class Frame {
   struct Gl;
 
   void runTick(int64_t index, bool rain_only);
+  void tellSettings();
   void tickGlass(const Tick& tick);
   void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick);
   PaneObject& pane(uint32_t id);
@@ -117,6 +118,7 @@ class Frame {
   std::map<uint32_t, WiperObject> wipers_;
   std::map<uint32_t, uint32_t> volumes_;  // id -> vehicle
   Settings settings_;
+  rain::WindProfile wind_profile_;  // as the settings say
   uint64_t seed_;
   uint32_t capacity_;
   bool started_ = false;

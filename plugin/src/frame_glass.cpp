@@ -20,7 +20,8 @@ glass::SizeClass sizeClass(const rain::SizeLaw& law, const rain::SpeedClass& c) 
   double cubes = 0.0;
   for (int i = 0; i < kSizeSteps; ++i)
     cubes += std::pow(law.quantile(c.from_mm, c.to_mm, (i + 0.5) / kSizeSteps), 3.0);
-  return {std::cbrt(cubes / kSizeSteps) * 1e-3, law.numberDensity(c.from_mm, c.to_mm), c.speed_mps};
+  return {std::cbrt(cubes / kSizeSteps) * 1e-3, law.numberDensity(c.from_mm, c.to_mm), c.speed_mps,
+          glm::dvec3(0.0)};
 }
 
 uint32_t sizeClasses(double rate_mm_h, std::array<glass::SizeClass, glass::kMaxSizeClasses>& classes) {
@@ -57,12 +58,16 @@ void Frame::tickGlass(const Tick& tick) {
     const glm::dquat vehicleFromWorld = glm::conjugate(vehicle->pose.orientation);
     t.index = ++p.tick;
     t.acceleration_mps2 = vehicleFromWorld * (kGravity_mps2 - vehicle->acceleration_mps2);
-    t.air_mps = vehicleFromWorld * (tick.weather.wind_mps - vehicle->pose.velocity_mps);
+    t.air_mps =
+        vehicleFromWorld * (wind_profile_.air_share * tick.weather.wind_mps - vehicle->pose.velocity_mps);
     t.down = vehicleFromWorld * glm::dvec3(0.0, 0.0, -1.0);
     t.temperature_c = tick.weather.temperature_c;
     t.humidity = tick.weather.humidity;
     t.class_count = class_count_;
     t.classes = classes_;
+    const glm::dvec3 wind_mps = vehicleFromWorld * tick.weather.wind_mps;
+    for (uint32_t i = 0; i < class_count_; ++i)
+      t.classes[i].drift_mps = (wind_profile_.drop_share[i] - wind_profile_.air_share) * wind_mps;
     if (p.tick % kShelterTicks == 1) updateShelter(p, *vehicle, tick);
     t.wet_share = p.wet_share;
     for (const WiperMotion& w : tick.wipers) {
@@ -79,8 +84,9 @@ void Frame::tickGlass(const Tick& tick) {
 // where the glass faces down.
 void Frame::updateShelter(PaneObject& p, const VehicleState& vehicle, const Tick& tick) {
   const rain::SizeLaw law = rain::SizeLaw::of(std::max(tick.weather.rain_mm_h, 0.1));
+  const double fall_mps = rain::fallSpeed(law.meanDiameterReachingGround_mm());
   const glm::dvec3 drop_mps =
-      tick.weather.wind_mps + glm::dvec3(0.0, 0.0, -rain::fallSpeed(law.meanDiameterReachingGround_mm()));
+      wind_profile_.dropShare(fall_mps) * tick.weather.wind_mps - glm::dvec3(0.0, 0.0, fall_mps);
   for (int region = 0; region < glass::kRegions; ++region) {
     const auto centre = p.sim->map().regionCentre(region);
     if (!centre) continue;

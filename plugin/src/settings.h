@@ -14,6 +14,10 @@ struct Settings {
   double glass_blur = 1.0;
   double glass_internal_reflections = 3.0;
   double glass_capture_px = 256.0;
+  double wind_gust_share = 0.0;
+  double wind_gust_time_s = 10.0;
+  double wind_roughness_m = 0.0;
+  double wind_height_m = 1.5;
   double time_catch_up_s = 5.0;
   double bench_repeat = 1.0;
 };
@@ -46,6 +50,18 @@ inline constexpr SettingInfo kSettings[] = {
      &Settings::glass_internal_reflections},
     {"glass.capture_px", "px", "glass", "side of a face of the captured surroundings", 32.0, 2048.0,
      &Settings::glass_capture_px},
+    {"wind.gust_share", "1", "wind",
+     "how gusty: standard deviation of the wind's speed by its mean (0.17 over open country at 10 m)", 0.0,
+     0.5, &Settings::wind_gust_share},
+    {"wind.gust_time_s", "s", "wind", "how long a gust lasts (integral time scale)", 5.0, 600.0,
+     &Settings::wind_gust_time_s},
+    {"wind.roughness_m", "m", "wind",
+     "of the ground (0.03 grass, 0.5 park, 1 suburb): the wind is told at 10 m and is less below; 0 = it is "
+     "alike at every height",
+     0.0, 1.0, &Settings::wind_roughness_m},
+    {"wind.height_m", "m", "wind",
+     "of drops and glass above ground, where they have what wind.roughness_m leaves of the wind", 1.0, 10.0,
+     &Settings::wind_height_m},
     {"time.catch_up_s", "s", "time",
      "the longest stall that is caught up with; of a longer one the rest is left out", 0.1, 60.0,
      &Settings::time_catch_up_s},

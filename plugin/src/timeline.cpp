@@ -176,7 +176,9 @@ const Tick& Timeline::tick(int64_t index) {
     const double from = angleAt(knots, begin_ns), to = angleAt(knots, end_ns);
     wipers_.push_back({wiper, from, extremeBetween(knots, begin_ns, end_ns, from, to), to});
   }
-  tick_ = {index, end_ns, between(a->weather, b->weather, s), vehicles_, views_, wipers_};
+  WeatherState weather = between(a->weather, b->weather, s);
+  weather.wind_mps = gusts_.at(index, weather.wind_mps);
+  tick_ = {index, end_ns, weather, vehicles_, views_, wipers_};
   return tick_;
 }
 

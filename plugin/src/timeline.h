@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "gusts.h"
 #include "tick.h"
 
 namespace rg {
@@ -37,6 +38,9 @@ class Timeline {
   const Sample& first() const { return samples_.front(); }
   const Sample& last() const { return samples_.back(); }
 
+  // What the samples' wind swings by, from the next tick asked for on.
+  void setGusts(const Gusts& gusts) { gusts_ = gusts; }
+
   // Inputs of the tick with this index; spans stay valid until the next call. Needs a sample.
   const Tick& tick(int64_t index);
 
@@ -56,6 +60,7 @@ class Timeline {
  private:
   std::pair<const Sample*, const Sample*> around(int64_t time_ns) const;
 
+  Gusts gusts_;
   std::vector<Sample> samples_;  // ascending
   std::map<uint32_t, std::vector<WiperKnot>> knots_;
   Tick tick_;

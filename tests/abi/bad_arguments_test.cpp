@@ -158,7 +158,9 @@ TEST_F(BadArguments, parametersOutOfRangeAreRefused) {
     p.struct_size = sizeof p;
     ASSERT_EQ(api.get_parameter(scene.instance, i, &p), RG_OK);
     for (const double value : {kNaN, kInfinity, p.minimum - 1.0, p.maximum + 1.0}) {
-      expectRefused(p.name, [&] { return api.set_parameter(scene.instance, p.name, value); });
+      expectRefused(
+          p.name, [&] { return api.set_parameter(scene.instance, p.name, value); }, RG_ERROR_BAD_ARGUMENT,
+          p.name);
     }
     rg_parameter after{};
     after.struct_size = sizeof after;

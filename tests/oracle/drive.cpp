@@ -1,6 +1,7 @@
 #include "drive.h"
 
 #include "checks.h"
+#include "rain/size_law.h"
 #include "scene/scene.h"
 
 namespace oracle {
@@ -35,6 +36,7 @@ const Drive::Models& Drive::models() {
 Drive::Drive(const Variant& variant, double frame_s)
     : scenario_(scenarioOf(variant)),
       plugin_(rainOnlyApi(), scenario_.seed),
+      rain_(rainOnly(plugin_.instance())),
       simulation_(scenario_, models().car, models().road, plugin_, {1280, 720}),
       road_hulls_(hullsOf(models().road.shelters)),
       car_hulls_(hullsOf(models().car.shelters)),
@@ -42,6 +44,7 @@ Drive::Drive(const Variant& variant, double frame_s)
   forgetVolumes(!variant.sheltered);
   plugin_.addRoad(models().road);
   plugin_.addCar(models().car);
+  for (const auto& [name, value] : scenario_.parameters) plugin_.setParameter(name, value);
   const auto& shelters = models().road.shelters;
   for (size_t i = 0; i < shelters.size(); ++i) {
     if (!variant.brake_for.empty() && shelters[i].name == variant.brake_for) brake_for_ = i;
@@ -78,6 +81,11 @@ void Drive::brake() {
   if (!braking_) return;
   simulation_.driver().takeOver();
   simulation_.overrides.controls = host::Controls{0.0, kPedal, 0.0};
+}
+
+glm::dvec3 Drive::dropVelocity(uint32_t kind) const {
+  return rain_.profile.drop_share[kind] * rain_.wind_mps -
+         glm::dvec3(0.0, 0.0, rg::rain::speedClasses()[kind].speed_mps);
 }
 
 rg::ViewState Drive::view() const {

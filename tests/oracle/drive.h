@@ -36,9 +36,10 @@ class Drive {
   int64_t pluginTime_ns() const { return simulation_.pluginTime(time_ns_); }
   rg::ViewState view() const;
   host::CarState car() const { return simulation_.carAt(time_ns_); }
-  rg::rain::Field& field() { return *rainOnly(plugin_.instance()).field; }
-  uint32_t capacity_drops() { return rainOnly(plugin_.instance()).capacity_drops; }
-  glm::dvec3 wind_mps() const { return simulation_.weather().wind_mps; }
+  rg::rain::Field& field() { return *rain_.field; }
+  uint32_t capacity_drops() const { return rain_.capacity_drops; }
+  // Of a class's drops, as of the last tick.
+  glm::dvec3 dropVelocity(uint32_t kind) const;
   double rain_mm_h() const { return simulation_.weather().rain_mm_h; }
 
   const std::vector<Hull>& roadHulls() const { return road_hulls_; }
@@ -59,6 +60,7 @@ class Drive {
 
   host::Scenario scenario_;
   host::RainPlugin plugin_;
+  RainOnly& rain_;  // the plugin's
   host::Simulation simulation_;
   std::vector<Hull> road_hulls_, car_hulls_;
   std::optional<size_t> brake_for_;

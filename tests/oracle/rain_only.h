@@ -6,6 +6,7 @@
 
 #include "rain/field.h"
 #include "rainglass/rainglass.h"
+#include "settings.h"
 #include "timeline.h"
 
 namespace oracle {
@@ -14,7 +15,11 @@ struct RainOnly {
   rg::Timeline timeline;
   uint32_t capacity_drops = 0;
   std::unique_ptr<rg::rain::Field> field;
+  uint64_t seed = 1;
+  rg::Settings settings;  // of which those of the wind count
+  rg::rain::WindProfile profile;
   int64_t next_tick = INT64_MIN;
+  glm::dvec3 wind_mps{0.0};  // of the last tick
 };
 
 // Its create() makes a RainOnly; panes and wipers are taken and forgotten.

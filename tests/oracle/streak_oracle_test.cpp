@@ -18,10 +18,6 @@ using rg::rain::Streak;
 // inside at most.
 constexpr double kTolerance_m = 0.5e-3;
 
-glm::dvec3 classVelocity(const Drive& drive, uint32_t kind) {
-  return drive.wind_mps() - glm::dvec3(0.0, 0.0, rg::rain::speedClasses()[kind].speed_mps);
-}
-
 struct Tally {
   uint64_t frames = 0, streaks = 0, clipped = 0, inside = 0;
   double deepest_m = -1e30;
@@ -36,7 +32,7 @@ Tally tally(Drive& drive) {
     t.streaks += streaks.size();
     for (const Streak& s : streaks) {
       const double whole_m =
-          glm::length(classVelocity(drive, s.kind) - view.eye_velocity_mps) * view.exposure_s;
+          glm::length(drive.dropVelocity(s.kind) - view.eye_velocity_mps) * view.exposure_s;
       t.clipped += glm::distance(s.from_m, s.to_m) < 0.99 * whole_m ? 1u : 0u;
       const double depth_m = drive.depth(s.from_m, s.to_m);
       t.deepest_m = std::max(t.deepest_m, depth_m);
@@ -101,7 +97,7 @@ double expectedDrops(const Drive& drive, const rg::ViewState& view, std::mt19937
   for (uint32_t kind = 0; kind < rg::rain::kClasses; ++kind) {
     const rg::rain::SpeedClass& c = rg::rain::speedClasses()[kind];
     const double density = law.numberDensity(c.from_mm, c.to_mm);
-    const glm::dvec3 velocity = classVelocity(drive, kind);
+    const glm::dvec3 velocity = drive.dropVelocity(kind);
     for (int i = 0; i < kPoints; ++i) {
       const double reach_m = visibility.factor * visibility.reference_px * 1e-3 *
                              law.quantile(c.from_mm, c.to_mm, (i + 0.5) / kPoints);
@@ -136,7 +132,7 @@ TEST_P(OpenAir, holdsTheDropsOfTheSizeLawAndShadowsHoldNone) {
     const rg::ViewState view = drive.view();
     drive.field().streaks(view, drive.pluginTime_ns(), streaks);
     for (const Streak& s : streaks) {
-      const glm::dvec3 velocity = classVelocity(drive, s.kind);
+      const glm::dvec3 velocity = drive.dropVelocity(s.kind);
       in_shadow += reached(drive, s.drop_m, velocity, 0.01) ? 0u : 1u;
       seen += inView(view, s.drop_m) && beyondTheCar(drive, s.drop_m) ? 1.0 : 0.0;
     }
@@ -152,6 +148,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Variant{.scenario = "tunnel"}, Variant{.scenario = "canopy"},
                       Variant{.scenario = "canopy", .camera = "outside"},
                       Variant{.scenario = "canopy", .changes = {"weather.wind_y_mps=40"}},
+                      Variant{.scenario = "canopy",
+                              .changes = {"weather.wind_y_mps=20", "plugin.wind.roughness_m=0.5"}},
                       Variant{.scenario = "tunnel", .changes = {"weather.wind_x_mps=-40"}}),
     [](const auto& v) { return nameOf(v.param); });
 

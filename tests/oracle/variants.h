@@ -40,6 +40,12 @@ inline const Variant kVariants[] = {
      .changes = {"drive.speed_kmh=50", "drive.stops=[[1,0]]", "weather.wind_y_mps=40"},
      .camera = "outside",
      .brake_for = "canopy"},
+    {.scenario = "tunnel",
+     .changes = {"weather.wind_y_mps=15", "plugin.wind.gust_share=0.5", "plugin.wind.gust_time_s=5"}},
+    {.scenario = "canopy",
+     .changes = {"weather.wind_y_mps=-20", "plugin.wind.gust_share=0.4", "plugin.wind.gust_time_s=5",
+                 "plugin.wind.roughness_m=0.1"},
+     .camera = "outside"},
 };
 // One of each kind, for tests that take long.
 inline const auto kFewVariants = std::span(kVariants).first<6>();
@@ -48,6 +54,7 @@ inline std::string nameOf(const Variant& v) {
   std::string name = v.scenario + "_" + v.camera;
   for (const std::string& c : v.changes) {
     if (c.starts_with("weather.")) name += c.substr(7);
+    if (c.starts_with("plugin.wind.gust_share")) name += "_gusts";
   }
   if (!v.brake_for.empty()) name += "_1g";
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : c == '-' ? 'm' : '_';

@@ -159,7 +159,8 @@ typedef struct rg_weather {
   uint32_t reserved;
   double rain_mm_h;     /* 0 .. 300; default 0 */
   double snow_mm_h;     /* water equivalent; other than 0: RG_ERROR_MISSING_FEATURE in this build */
-  double wind_mps[3];   /* velocity of the air, world axes, each within +-100; default 0 */
+  double wind_mps[3];   /* velocity of the air, world axes, each within +-100; default 0. Gusts swing about it
+                           (parameter wind.gust_share); at drops and glass, or at 10 m (wind.roughness_m) */
   double temperature_c; /* -60 .. 60; default 12 */
   double humidity;      /* relative, 0 .. 1; default 0.9 */
   double visibility_m;  /* meteorological range without rain, 1 .. 1e6; default 40000 */
@@ -466,7 +467,8 @@ typedef struct rg_api {
   /* Time. [thread: as update] */
   rg_result (*reset)(rg_instance* instance); /* as after create: clock, rain, water; objects stay */
   rg_result (*seek)(rg_instance* instance,
-                    int64_t time_ns); /* rain as it is at that time; water on glass stays */
+                    int64_t time_ns); /* rain as it is at that time (after a wind that changed, gusts too, other
+                                         drops of the same rain); water on glass stays */
   rg_result (*prewarm)(rg_instance* instance, double seconds); /* rain that long before the first picture */
   rg_result (*rebase_origin)(
       rg_instance* instance,

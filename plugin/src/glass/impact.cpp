@@ -11,7 +11,7 @@ namespace rg::glass {
 namespace {
 
 glm::dvec3 dropVelocity(const PaneTick& tick, const SizeClass& size) {
-  return tick.air_mps + size.fall_speed_mps * tick.down;
+  return tick.air_mps + size.drift_mps + size.fall_speed_mps * tick.down;
 }
 
 double dropVolume_m3(double diameter_m) {

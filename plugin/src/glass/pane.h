@@ -55,6 +55,7 @@ struct SizeClass {
   double diameter_m = 0.0;
   double number_per_m3 = 0.0;
   double fall_speed_mps = 0.0;
+  glm::dvec3 drift_mps{0.0};  // beyond the air's velocity, in the pane's vehicle's frame
 };
 
 // A blade's way during a tick: from `from_rad` to `extreme_rad` (a reversal) to `to_rad`; without a reversal
