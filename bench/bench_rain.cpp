@@ -115,7 +115,7 @@ void RainUpdate(benchmark::State& state) {
   drive.field.publish(upload);
   const FieldStats before = drive.field.stats();
   double live = 0.0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     upload.slots.clear();
     upload.records.clear();
     const double from = cpuSeconds();
@@ -185,7 +185,7 @@ void RainUpdateNaive(benchmark::State& state) {
   }
   const float depth = drops.high_x - drops.low_x, height = drops.high_z - drops.low_z;
   float eye_x = static_cast<float>(drive.eyeX());
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const double from = cpuSeconds();
     eye_x += static_cast<float>(kSpeed_mps * kTickSeconds);
     for (size_t i = 0; i < number; ++i) {
