@@ -12,8 +12,6 @@
 #include <stdexcept>
 #include <vector>
 
-extern char** environ;
-
 namespace host {
 namespace {
 
@@ -110,6 +108,7 @@ Video::Video(std::filesystem::path file, int width_px, int height_px, double fra
 
   std::vector<std::string> words = arguments(program, file_, width_px, height_px, frames_per_s);
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
