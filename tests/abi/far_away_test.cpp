@@ -35,6 +35,7 @@ class FarAway : public GlTest {
     SmallScene scene(*plugin.api, 20000, habits);
     scene.rain_mm_h = rain_mm_h;
     scene.expect(scene.attach(GlContext::getProc));
+    scene.expect(scene.api.set_parameter(scene.instance, "rain.gain", 4.0));  // there is more to compare
     const std::array<rg_glass_drop, 3> drops{
         {{0.0, 0.0, 0.02, 60.0}, {0.1, 0.05, 0.01, 50.0}, {-0.1, -0.08, 0.015, 70.0}}};
     scene.expect(scene.api.place_drops(scene.instance, kPane, drops.data(), 3));

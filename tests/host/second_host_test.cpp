@@ -118,9 +118,9 @@ TEST_F(SecondHost, drawsTheSameRainAsHostSim) {
   const Rgb second = secondHost(kRain_mm_h);
   EXPECT_LE(greatestDifference(rain, second), 1);
   EXPECT_LE(greatestDifference(dry, secondHost(0)), 1);
-  // What is compared is rain, seen well, and hidden by the wall in both.
-  EXPECT_GT(greatestDifference(rain, dry), 50);
-  EXPECT_GT(greatestDifference(other, second), 50) << "other drops look the same";
+  // What is compared is rain, seen well (at thirty times what may differ), and hidden by the wall in both.
+  EXPECT_GT(greatestDifference(rain, dry), 30);
+  EXPECT_GT(greatestDifference(other, second), 30) << "other drops look the same";
   for (const Rgb* picture : {&rain, &second}) {
     EXPECT_GT(wetPixels(*picture, dry, kMiddle, kWidth), kHalf_px / 2);
     EXPECT_LT(wetPixels(*picture, dry, 0, kMiddle), kHalf_px / 4);
