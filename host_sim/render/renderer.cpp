@@ -289,7 +289,7 @@ InstanceId Renderer::addInstance(SceneId scene) {
   return static_cast<InstanceId>(self_->instances.size() - 1);
 }
 
-void Renderer::place(InstanceId instance, Placement placement) {
+void Renderer::place(InstanceId instance, const Placement& placement) {
   self_->instances.at(instance).place(placement);
 }
 

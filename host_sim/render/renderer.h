@@ -101,7 +101,7 @@ class Renderer {
   /// (rays against its own triangles), so that tunnels are dark and canopies give shade. `scene` is not kept.
   SceneId addScene(const Scene& scene, SceneFrame frame);
   InstanceId addInstance(SceneId scene);
-  void place(InstanceId instance, Placement placement);
+  void place(InstanceId instance, const Placement& placement);
 
   /// A picture of all around at infinity, instead of the computed sky: `rgb` is latitude-longitude, row 0 up,
   /// linear, in this file's unit; the world's +x is in its middle column, +y left of it.

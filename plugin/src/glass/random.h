@@ -27,9 +27,14 @@ class Stream {
 // A Poisson number: products of uniforms (Knuth), in portions so that exp(-mean) stays in range.
 inline uint32_t poisson(Stream& random, double mean) {
   uint32_t count = 0;
-  for (; mean > 0.0; mean -= 30.0) {
+  while (mean > 0.0) {
     const double limit = std::exp(-std::fmin(mean, 30.0));
-    for (double product = random.unit(); product > limit; product *= random.unit()) ++count;
+    double product = random.unit();
+    while (product > limit) {
+      product *= random.unit();
+      ++count;
+    }
+    mean -= 30.0;
   }
   return count;
 }
