@@ -14,7 +14,7 @@ namespace rg::rain {
 namespace {
 
 using glm::dvec3, glm::vec3, glm::vec4;
-using shared::RainLamp, shared::RainLook;
+using shared::RainLook;
 
 constexpr uint32_t kBatch = 1u << 15;  // records sent at once: 1 MiB
 

@@ -151,8 +151,8 @@ Shelter::Changes Shelter::advance(double time_s, std::span<const VehicleState> v
   if (changed_) rebuild();
   changed_ = false;
   for (auto& [id, body] : bodies_) {
-    const auto told =
-        std::find_if(vehicles.begin(), vehicles.end(), [&](const VehicleState& v) { return v.id == id; });
+    const auto told = std::find_if(vehicles.begin(), vehicles.end(),
+                                   [wanted = id](const VehicleState& v) { return v.id == wanted; });
     Pose pose = body.path.pose();
     if (told != vehicles.end())
       pose = told->pose;
