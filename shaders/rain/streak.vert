@@ -15,6 +15,7 @@ layout(location = 1) in uvec4 record_rest;  // fraction_z_class, diameter_m, end
 
 layout(location = 0) out vec3 streak_at;           // along and across the streak, -1..1; depth along the view, m
 layout(location = 1) flat out vec4 streak_colour;  // rgb: as the target holds it; a: mean cover
+layout(location = 2) flat out vec3 streak_shape;   // what it is of, its quad's width by its length, lumps
 out vec3 segment_end_m;  // of what is drawn, from the eye: for transform feedback; no stage takes it, so that the linker leaves it out else
 
 const float kSharpFrom_m = 0.5;      // nearer drops are out of any lens's focus: spread until they cannot be seen
@@ -31,13 +32,16 @@ vec2 onScreen(vec3 p) {
   return clip.xy / clip.w * 0.5 * look.viewport.zw;
 }
 
-vec3 fromLamp(RainLamp lamp, vec3 drop, vec3 towards) {
+vec3 irradianceOf(RainLamp lamp, vec3 drop) {
   vec3 way = drop - lamp.place_inner.xyz;
   float distance_m = max(length(way), 0.1);
-  way /= distance_m;
   float outer = lamp.direction_outer.w;
-  float cone = outer <= -1.0 ? 1.0 : smoothstep(outer, max(lamp.place_inner.w, outer + 1e-3), dot(way, lamp.direction_outer.xyz));
-  return lamp.intensity.rgb * (cone / (distance_m * distance_m) * rainPhase(dot(way, -towards)));
+  float cone = outer <= -1.0 ? 1.0 : smoothstep(outer, max(lamp.place_inner.w, outer + 1e-3), dot(way / distance_m, lamp.direction_outer.xyz));
+  return lamp.intensity.rgb * (cone / (distance_m * distance_m));
+}
+
+vec3 fromLamp(RainLamp lamp, vec3 drop, vec3 towards) {
+  return irradianceOf(lamp, drop) * rainPhase(dot(normalize(drop - lamp.place_inner.xyz), -towards));
 }
 
 // Mean radiance a drop shows. Its wide lens gathers 165 degrees of what lies behind it, so the finest it tells apart is which half of the
@@ -55,6 +59,14 @@ vec3 gathered(vec3 drop) {
   return light;
 }
 
+// Mean radiance of what scatters all light alike to all sides: that of all round, less what ice and its soot take.
+vec3 scattered(vec3 drop) {
+  const float kKept = 0.95, kPerSteradian = 0.0795775;  // 1 / 4 pi
+  vec3 light = 0.5 * (look.sky.rgb + look.ground.rgb) + kPerSteradian * look.sun_irradiance.rgb;
+  for (uint i = 0u; i < look.lamp_count; ++i) light += kPerSteradian * irradianceOf(look.lamps[i], drop);
+  return kKept * light;
+}
+
 vec3 asInTarget(vec3 radiance) {
   vec3 c = radiance * look.focal.w;
   if (look.srgb == 0u) return c;
@@ -66,6 +78,7 @@ void drawNothing() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   streak_at = vec3(0.0);
   streak_colour = vec4(0.0);
+  streak_shape = vec3(0.0);
   segment_end_m = vec3(0.0);
 }
 
@@ -75,7 +88,9 @@ void main() {
     drawNothing();
     return;
   }
-  RainStreak streak = rainStreak(drop, classes[rainClassOf(drop)], rain_view);
+  RainClass its_class = classes[rainClassOf(drop)];
+  int is_of = its_class.base.w;
+  RainStreak streak = rainStreak(drop, its_class, rain_view);
   float depth = dot(streak.drop_m, look.forward.xyz);
   float approach = dot(streak.velocity_mps, look.forward.xyz);
   float from = streak.from_s, to = streak.to_s;
@@ -115,7 +130,11 @@ void main() {
   float middle_px = drop.diameter_m * look.focal.y / middle_depth;
   float middle_width_px = sqrt(middle_px * middle_px + kLeastWidth_px * kLeastWidth_px);
   float whole_px = max(drawn_px * 2.0 * half_s / (to - from), middle_width_px);
-  float cover = look.focal.z * rainCover(middle_px) / (whole_px * middle_width_px);
+  float cover = look.focal.z * rainFilled(is_of) * rainCover(middle_px) / (whole_px * middle_width_px);
   float focus = smoothstep(kRainNearest_m, kSharpFrom_m, middle_depth);
-  streak_colour = vec4(asInTarget(gathered(streak.drop_m)), min(cover, kDensest) * streak.fade * focus);
+  float white = rainWhite(is_of);
+  vec3 light = white < 1.0 ? gathered(streak.drop_m) : vec3(0.0);
+  if (white > 0.0) light = mix(light, scattered(streak.drop_m), white);
+  streak_colour = vec4(asInTarget(light), min(cover, kDensest) * streak.fade * focus);
+  streak_shape = vec3(float(is_of), middle_width_px / max(drawn_px, middle_width_px), float(drop.id & 0xffu) * (6.2831853 / 256.0));
 }

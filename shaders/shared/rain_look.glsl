@@ -1,7 +1,7 @@
 // How a streak looks: light, exposure and the view it is drawn into. One uniform block a draw.
 #ifndef RG_SHARED_RAIN_LOOK_GLSL
 #define RG_SHARED_RAIN_LOOK_GLSL
-#include "shared/compat.glsl"
+#include "shared/rain_drop.glsl"
 RG_SHARED_BEGIN
 
 RG_CONST uint kRainLamps = 16u;
@@ -52,6 +52,27 @@ RG_FN float rainAcross(float s) { return 1.5f * max(0.0f, 1.0f - s * s); }
 
 // And along it, s = -1..1 over the whole exposure: soft ends, mean 1.
 RG_FN float rainAlong(float s) { return (1.0f - smoothstep(0.6f, 1.0f, abs(s))) * 1.25f; }
+
+// What a particle covers of the disk it is seen as. Aggregates of crystals are full of gaps: half (their area ratio is 0.3..0.6 in Heymsfield &
+// Miloshevich 2003).
+RG_FN float rainFilled(int is_of) { return is_of == kRainIsSnow || is_of == kRainIsMeltingSnow ? 0.5f : 1.0f; }
+
+// How much of the light it shows is scattered alike to all sides, as ice and its air do; the rest it gathers from behind, as water does
+// (unsourced for what is between).
+RG_FN float rainWhite(int is_of) {
+  if (is_of == kRainIsRain) return 0.0f;
+  return is_of == kRainIsMeltingSnow ? 0.5f : is_of == kRainIsSnow ? 1.0f : 0.9f;
+}
+
+// A solid particle's share of its mean cover at a point of what it sweeps, along and across it -1..1; mean 1 (to 1 %). `squareness`: of the
+// swept quad, its width by its length. Flakes are octagons with lumps by `lump_rad`, stones disks; both soft at their rim.
+RG_FN float rainSolid(float along, float across, float squareness, bool is_flake, float lump_rad) {
+  float ahead = max(abs(along) - (1.0f - squareness), 0.0f) / squareness, beside = abs(across);
+  float rim = is_flake ? max(max(ahead, beside), (ahead + beside) * 0.7071068f) : sqrt(ahead * ahead + beside * beside);
+  if (is_flake && squareness > 0.5f) rim *= 1.0f + 0.15f * cos(3.0f * atan(across, along) + lump_rad) * rim;
+  float square = is_flake ? 0.476f : 0.452f;
+  return (1.0f - smoothstep(0.5f, 1.0f, rim)) / (0.75f * (1.0f - squareness) + square * squareness);
+}
 
 // Henyey & Greenstein's phase function (1941), per steradian. Refraction sends most of a drop's light forward; 0.75 stands for it.
 RG_FN float rainPhase(float cosine) {

@@ -29,8 +29,8 @@ void Border::shift(const dvec3& shift_m) {
   for (auto& view : views_) view->eye_m -= shift_m;
 }
 
-void Border::follow(std::span<const ViewState> all_told, const ClassFrames& frames,
-                    double reach_per_diameter) {
+void Border::follow(std::span<const ViewState> all_told, const ClassFrames& frames, double reach_per_diameter,
+                    const std::bitset<kClasses>& followed) {
   entered_.clear();
   for (auto& view : views_) view->told = false;
   for (const ViewState& told : all_told) {
@@ -41,11 +41,11 @@ void Border::follow(std::span<const ViewState> all_told, const ClassFrames& fram
       (*found)->id = told.id;
     }
     (*found)->told = true;
-    followView(**found, told, frames, reach_per_diameter);
+    followView(**found, told, frames, reach_per_diameter, followed);
   }
   for (auto& view : views_) {
     if (view->told) continue;
-    for (uint32_t kind = 0; kind < kSpeedClasses; ++kind)
+    for (uint32_t kind = 0; kind < kClasses; ++kind)
       replaceRows(view->rows[view->current][kind], RowSet{}, kind);
   }
   std::erase_if(views_, [](const auto& view) { return !view->told; });
@@ -53,7 +53,7 @@ void Border::follow(std::span<const ViewState> all_told, const ClassFrames& fram
 }
 
 void Border::followView(FollowedView& view, const ViewState& told, const ClassFrames& frames,
-                        double reach_per_diameter) {
+                        double reach_per_diameter, const std::bitset<kClasses>& followed) {
   const Cone cone = coneOf(told);
   const glm::dquat worldFromEye = glm::quat_cast(glm::transpose(glm::dmat3(told.eyeFromWorld)));
   const dvec3 velocity = eyeVelocityOf(told);
@@ -70,16 +70,23 @@ void Border::followView(FollowedView& view, const ViewState& told, const ClassFr
   const uint32_t before = view.current, after = 1 - before;
   view.current = after;
   view.streak_m = 0.0;
-  for (uint32_t kind = 0; kind < kSpeedClasses; ++kind) {
+  for (uint32_t kind = 0; kind < kClasses; ++kind) {
+    if (!followed.test(kind)) {
+      view.rows[after][kind].clear();
+      replaceRows(view.rows[before][kind], view.rows[after][kind], kind);
+      view.rows[before][kind].clear();
+      continue;
+    }
     const ClassLattice& lattice = classLattices()[kind];
     const dvec3 past = frames.velocity(kind) - velocity;
     Margin margin;
     margin.ahead_m = past * (1.25 * kTickSeconds);  // a quarter to spare
     margin.streak_m = past * (0.5 * exposureOf(told));
     view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
-    const double reach = reach_per_diameter * 1e-3 * lattice.drops.to_mm;
-    margin.sides_m = 0.02 + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
-    margin.reach_m = reach + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
+    const double reach = reach_per_diameter * 1e-3 * lattice.reach_mm;
+    margin.sides_m = 0.02 + lattice.swing_m + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach +
+                     1.3 * surprise_m;
+    margin.reach_m = reach + lattice.swing_m + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
     findRows(cone, margin, (cone.eye_m - frames.origin(kind)) / lattice.cell_m, lattice.cell_m,
              view.rows[after][kind]);
     replaceRows(view.rows[before][kind], view.rows[after][kind], kind);

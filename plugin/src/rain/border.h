@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -25,7 +26,7 @@ struct FollowedView {
   glm::dquat worldFromEye{1, 0, 0, 0};
   double streak_m = 0.0;  // of the longest streak, from the drop to its end
   uint32_t current = 0;
-  std::array<std::array<RowSet, kSpeedClasses>, 2> rows;
+  std::array<std::array<RowSet, kClasses>, 2> rows;
 };
 
 class Border {
@@ -33,8 +34,9 @@ class Border {
   explicit Border(Cells& cells);
 
   // Takes the views to a tick; drops are seen as far as `reach_per_diameter` times their diameter. Views that
-  // are not told any more look into nothing.
-  void follow(std::span<const ViewState> told, const ClassFrames& frames, double reach_per_diameter);
+  // are not told any more look into nothing, and none looks for classes that are not in `followed`.
+  void follow(std::span<const ViewState> told, const ClassFrames& frames, double reach_per_diameter,
+              const std::bitset<kClasses>& followed);
 
   // Cells that came into sight with the last follow(), each once.
   const std::vector<uint32_t>& entered() const { return entered_; }
@@ -48,7 +50,7 @@ class Border {
 
  private:
   void followView(FollowedView& view, const ViewState& told, const ClassFrames& frames,
-                  double reach_per_diameter);
+                  double reach_per_diameter, const std::bitset<kClasses>& followed);
   void replaceRows(const RowSet& before, const RowSet& after, uint32_t kind);
   void enter(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last);
   void leave(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last);
@@ -56,7 +58,7 @@ class Border {
 
   Cells& cells_;
   std::vector<std::unique_ptr<FollowedView>> views_;
-  std::array<uint32_t, kSpeedClasses> cells_of_{};
+  std::array<uint32_t, kClasses> cells_of_{};
   std::vector<uint32_t> entered_, left_;
   std::vector<CellKey> released_;  // by a view in this tick
 };

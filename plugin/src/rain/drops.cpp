@@ -113,6 +113,7 @@ uint32_t Drops::add(const shared::RainDrop& drop, uint32_t cell, uint32_t& first
   const uint32_t slot = slots_.take();
   if (slot == kNone) return kNone;
   records_[slot] = drop;
+  ++live_of_[shared::rainClassOf(drop)];
   cell_[slot] = cell;
   link(in_cell_, first_of_cell, slot);
   if (ends) schedule(slot, now);
@@ -124,6 +125,7 @@ void Drops::remove(uint32_t slot, uint32_t& first_of_cell) {
   unschedule(slot);
   unlink(in_cell_, first_of_cell, slot);
   records_[slot].diameter_m = 0.0f;
+  --live_of_[shared::rainClassOf(records_[slot])];
   cell_[slot] = kNone;
   slots_.give(slot);
   touch(slot);
@@ -138,6 +140,7 @@ void Drops::setEnd(uint32_t slot, uint32_t end, bool ends, uint32_t now) {
 
 void Drops::clear() {
   slots_.clear();
+  live_of_.fill(0);
   for (uint32_t slot = 0; slot < capacity(); ++slot) {
     if (records_[slot].diameter_m > 0.0f) touch(slot);
     records_[slot].diameter_m = 0.0f;

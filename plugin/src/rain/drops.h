@@ -1,6 +1,7 @@
 // The fixed buffer of live drops: slots, the lists they hang in, and when they end.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -55,6 +56,7 @@ class Drops {
   uint32_t nextInCell(uint32_t slot) const { return in_cell_[slot].next; }
   bool alive(uint32_t slot) const { return slots_.taken(slot); }
   uint32_t live() const { return slots_.used(); }
+  uint32_t liveOf(uint32_t kind) const { return live_of_[kind]; }  // a class
   uint32_t end() const { return slots_.end(); }
   uint32_t capacity() const { return static_cast<uint32_t>(records_.size()); }
 
@@ -97,6 +99,7 @@ class Drops {
   std::vector<uint32_t> heads_;
   std::vector<uint32_t> changed_;
   std::vector<bool> is_changed_;
+  std::array<uint32_t, shared::kRainClasses> live_of_{};
   uint32_t expired_to_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rain/bounce.h"
 #include "rain/field_state.h"
 
 namespace rg::rain {
@@ -28,28 +29,27 @@ bool Field::State::lookAround(const CellKey& key, bool past) {
 void Field::State::fillCell(uint32_t index) {
   const CellKey key = cells[index].key;
   const ClassLattice& lattice = classLattices()[key.kind];
-  const double most = keep * rate.wettest().density_m3[key.kind];
+  const double most = keep * rate.most_m3(key.kind);
   Candidates candidates(settings.seed, key, lattice.cell_m3);
   const Candidate* candidate = &candidates.next();
   if (candidate->threshold_m3 >= most) return;
   const bool near_volume = lookAround(key, true);
   cells[index].near_volume = near_volume;
+  const double least_delay = set_in.test(key.kind) ? 1.0 : 0.0;
   const double corner_z = cellMiddle(key).z - 0.5 * lattice.cell_m;
   for (; candidate->threshold_m3 < most; candidate = &candidates.next()) {
     // What rain there is where the drop is was decided when it fell through the ceiling.
     const double z = corner_z + candidate->fraction_z * 0x1p-16 * lattice.cell_m;
-    const double delay =
-        rate.steady() ? 0.0
-                      : std::max(0.0, ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz);
-    const RateHistory::Entry& then = rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
+    const double fallen_ticks = (ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz);
+    const double delay = rate.steady() ? 0.0 : std::max(least_delay, fallen_ticks);
+    const InTheAir& then = rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
     if (candidate->threshold_m3 >= keep * then.density_m3[key.kind]) continue;
     if (!birth(index, *candidate, then, near_volume)) return;
   }
 }
 
 // False when the buffer is full.
-bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateHistory::Entry& then,
-                         bool near_volume) {
+bool Field::State::birth(uint32_t index, const Candidate& candidate, const InTheAir& then, bool near_volume) {
   const CellKey key = cells[index].key;
   const ClassLattice& lattice = classLattices()[key.kind];
   RainDrop drop{};
@@ -60,19 +60,19 @@ bool Field::State::birth(uint32_t index, const Candidate& candidate, const RateH
   drop.fraction_z_class = candidate.fraction_z | key.kind << 16;
   // To a tenth of a micrometre, so that the last digit of a machine's log does not show.
   drop.diameter_m = static_cast<float>(
-      std::round(then.law.quantile(lattice.drops.from_mm, lattice.drops.to_mm, candidate.size) * 1e4) * 1e-7);
+      std::round(drawnDiameter_mm(lattice.drops.hydrometeor, then.quantile(key.kind, candidate.size)) * 1e4) *
+      1e-7);
   drop.id = candidate.id;
   drop.end = now() + kEndless;
   bool ends = false;
-  if (near_volume) {
+  if (near_volume || isOf(key.kind, Hydrometeor::kHail)) {
     const dvec3 place = placeOf(drop);
-    const ClassPath& path = frames.path(key.kind);
-    const double enters_s = shelter.willEnter(place, path, time_s());
-    if (enters_s <= 0.0 || shelter.cameThrough(place, path, time_s())) {
-      ++sheltered;
+    const double falls_s = fallsFor(drop, place, near_volume);
+    if (falls_s <= 0.0 || (near_volume && shelter.cameThrough(place, frames.path(key.kind), time_s()))) {
+      if (near_volume) ++sheltered;
       return true;
     }
-    ends = endOf(enters_s, drop.end);
+    ends = endOf(falls_s, drop.end);
   }
   const uint32_t slot = drops.add(drop, index, cells[index].first_drop, ends, now());
   if (slot == kNone) return false;
@@ -88,6 +88,15 @@ dvec3 Field::State::placeOf(const RainDrop& drop) const {
                                    classLattices()[kind].cell_m;
 }
 
+// Until it comes into a volume; a stone also: onto the ground, as that is told now.
+double Field::State::fallsFor(const RainDrop& drop, const dvec3& place, bool near_volume) {
+  const uint32_t kind = shared::rainClassOf(drop);
+  const double enters_s = near_volume ? shelter.willEnter(place, frames.path(kind), time_s()) : kNever_s;
+  if (!isOf(kind, Hydrometeor::kHail)) return enters_s;
+  const double above_m = place.z - 0.5 * static_cast<double>(drop.diameter_m) - ground_m;
+  return std::min(enters_s, above_m / classLattices()[kind].drops.speed_mps);
+}
+
 // Rounded down, so that the drop does not outlive its entry.
 bool Field::State::endOf(double after_s, uint32_t& end) const {
   const bool ends = after_s < kLongestEnd_s;
@@ -95,12 +104,34 @@ bool Field::State::endOf(double after_s, uint32_t& end) const {
   return ends;
 }
 
+// A stone that came down flies on as a drop of its own.
+void Field::State::bounce(const RainDrop& stone) {
+  const uint32_t kind = shared::rainClassOf(stone);
+  const double ago_s = static_cast<double>(now() - stone.end) * kTickSeconds / kEndUnits;
+  const dvec3 velocity = frames.velocity(kind);
+  const Impact impact{placeOf(stone) - velocity * ago_s, velocity, static_cast<double>(stone.diameter_m),
+                      ago_s, stone.id};
+  const Flight flight = flightAfter(impact, ground_m, shelter, time_s());
+  if (flight.lasts_s <= ago_s) return;
+  const uint32_t end = stone.end + static_cast<uint32_t>(flight.lasts_s * kTickHz * kEndUnits);
+  const RainDrop drop = recordOf(flight, impact.diameter_m, frames.origin(kBouncedClass), stone.end, end);
+  if (drop.diameter_m == 0.0f || static_cast<int32_t>(end - now()) <= 0) return;
+  bool is_fresh = false;
+  if (bounced_cell == kNone) bounced_cell = cells.acquire({0, 0, 0, kBouncedClass}, is_fresh);
+  const uint32_t slot = drops.add(drop, bounced_cell, cells[bounced_cell].first_drop, true, now());
+  if (slot == kNone) return;
+  threshold[slot] = -1.0f;  // it is there, however much is thinned
+  ++born;
+  ++bounced;
+}
+
 // What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked
 // again where they end, also in cells that were not near a volume before. Where they came from has not
 // changed: drops that never were stay so.
 void Field::State::retest() {
   for (uint32_t index = 0; index < cells.poolSize(); ++index) {
-    if (cells[index].views > 0 && cells[index].first_drop != kNone) retestCell(index);
+    if (cells[index].views > 0 && cells[index].first_drop != kNone && index != bounced_cell)
+      retestCell(index);
   }
 }
 
@@ -111,12 +142,10 @@ void Field::State::retestCell(uint32_t index) {
   cell.near_volume = near_volume;
   for (uint32_t slot = cell.first_drop; slot != kNone;) {
     const uint32_t next = drops.nextInCell(slot);
-    const double enters_s =
-        near_volume ? shelter.willEnter(placeOf(drops[slot]), frames.path(cell.key.kind), time_s())
-                    : kNever_s;
+    const double falls_s = fallsFor(drops[slot], placeOf(drops[slot]), near_volume);
     uint32_t end = 0;
-    const bool ends = endOf(enters_s, end);
-    if (enters_s <= 0.0) {
+    const bool ends = endOf(falls_s, end);
+    if (falls_s <= 0.0) {
       drops.remove(slot, cell.first_drop);
       ++died;
     } else if (ends != drops.ends(slot) || (ends && end != drops[slot].end)) {

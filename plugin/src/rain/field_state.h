@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -17,12 +18,18 @@ namespace rg::rain {
 
 inline constexpr uint32_t kEndUnits = 1024;  // of a tick, as shared::kRainEndUnits
 
+inline bool isOf(uint32_t kind, Hydrometeor hydrometeor) {
+  return fallClasses()[kind].hydrometeor == hydrometeor;
+}
+
 struct Field::State {
   explicit State(const FieldSettings& given)
       : settings(given),
         drops(std::clamp(given.capacity, 1000u, 4000000u)),
         threshold(drops.capacity(), 0.0f),
-        border(cells) {}
+        border(cells) {
+    fallen.reserve(1u << 12);
+  }
 
   FieldSettings settings;
   Visibility visibility;
@@ -39,16 +46,22 @@ struct Field::State {
   bool running = false;  // since the last seek a tick has been
   int64_t epoch = 0, tick = 0;
   double ceiling_m = 0.0;
-  double keep = 1.0;  // share of the law's drops that is born
-  uint64_t born = 0, died = 0, sheltered = 0, uploaded = 0, tests_before = 0;
+  double ground_m = kNoGround_m;
+  std::bitset<kClasses> followed, set_in;  // classes in this tick; of those the ones that were not before
+  uint32_t bounced_cell = kNone;           // in which bounced stones hang
+  std::vector<RainDrop> fallen;            // stones that came down in this tick
+  double keep = 1.0;                       // share of the law's drops that is born
+  uint64_t born = 0, died = 0, sheltered = 0, bounced = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
   uint32_t now() const { return static_cast<uint32_t>(static_cast<uint64_t>(tick - epoch) * kEndUnits); }
   double reachPerDiameter() const { return visibility.factor * visibility.reference_px; }
+  bool isAbout(uint32_t kind) const { return rate.most_m3(kind) > 0.0 || drops.liveOf(kind) > 0; }
 
   void start(const Tick& t);
   void moveTo(const Tick& t);
   void forgetCells();
+  void findClasses();
   void followViews(const Tick& t);
   void emptyLeftCells();
   void expireDrops();
@@ -56,7 +69,9 @@ struct Field::State {
 
   // field_births.cpp: which drops a cell holds, and until when.
   void fillCell(uint32_t index);
-  bool birth(uint32_t index, const Candidate& candidate, const RateHistory::Entry& then, bool near_volume);
+  bool birth(uint32_t index, const Candidate& candidate, const InTheAir& then, bool near_volume);
+  double fallsFor(const RainDrop& drop, const glm::dvec3& place_m, bool near_volume);
+  void bounce(const RainDrop& stone);
   void retest();
   void retestCell(uint32_t index);
   glm::dvec3 cellMiddle(const CellKey& key) const;

@@ -59,7 +59,8 @@ void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns
     const dvec3 base = glm::clamp(glm::floor((eye - corner) / c.cell_m), dvec3(-2e9), dvec3(2e9));
     out.classes[kind].corner_cell = vec4(vec3(corner + base * c.cell_m - eye), static_cast<float>(c.cell_m));
     out.classes[kind].velocity_reach = vec4(vec3(c.velocity_mps), static_cast<float>(c.reach_per_diameter));
-    out.classes[kind].base = glm::ivec4(glm::ivec3(base), 0);
+    out.classes[kind].base =
+        glm::ivec4(glm::ivec3(base), static_cast<int32_t>(fallClasses()[kind].hydrometeor));
   }
   setUpShelter(picture, eye, after_s, out.shelter);
   out.view.eye_velocity_exposure = vec4(vec3(eyeVelocityOf(view)), static_cast<float>(exposureOf(view)));
