@@ -43,15 +43,10 @@ RG_FN float rainSceneDepth(float stored, vec4 depth_rows, uint zero_to_one) {
   return abs(above / below);
 }
 
-// What share of the exposure a drop covers a pixel, summed over the streak's width and length, in px^2: the disk it is seen as. (Garg & Nayar
-// 2007: a pixel of the streak is covered for tau of T.)
-RG_FN float rainCover(float diameter_px) { return 0.7853982f * diameter_px * diameter_px; }
-
-// A streak's share of its mean cover across its width, s = -1..1: a rounded profile of mean 1.
-RG_FN float rainAcross(float s) { return 1.5f * max(0.0f, 1.0f - s * s); }
-
-// And along it, s = -1..1 over the whole exposure: soft ends, mean 1.
-RG_FN float rainAlong(float s) { return (1.0f - smoothstep(0.6f, 1.0f, abs(s))) * 1.25f; }
+// The other way: what clip space's z is of clip w there.
+RG_FN float rainStoredDepth(float depth_m, vec4 depth_rows) {
+  return (depth_rows.y - depth_rows.x * depth_m) / (depth_rows.w - depth_rows.z * depth_m);
+}
 
 // Henyey & Greenstein's phase function (1941), per steradian. Refraction sends most of a drop's light forward; 0.75 stands for it.
 RG_FN float rainPhase(float cosine) {
