@@ -225,9 +225,10 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   s.seed = static_cast<uint64_t>(top.number("seed", 1.0, 0.0, 9e15));
   s.camera = top.text("camera", "cockpit");
   if (std::ranges::find(kCameras, s.camera) == std::end(kCameras))
-    top.refuse("camera", "\"" + s.camera + "\" is none of cockpit, outside, front, side, free");
+    top.refuse("camera", "\"" + s.camera + "\" is none of cockpit, bumper, outside, front, side, free");
   if (top.find("white_cd_m2") != nullptr) s.white_cd_m2 = top.number("white_cd_m2", 0.0, 1e-3, 1e9);
   s.headlights = top.flag("headlights", true);
+  s.shelter = top.flag("shelter", true);
   Reader models = top.section("models");
   s.car = modelPath(models.text("car", "models/car.glb"), root);
   s.road = modelPath(models.text("road", "models/road.glb"), root);

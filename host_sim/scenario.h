@@ -46,10 +46,11 @@ struct Scenario {
   // the driver's eye adapts.
   std::optional<double> white_cd_m2;
   bool headlights = true;
+  bool shelter = true;  // false: the plugin is told of no volume, and it rains through roofs
   std::vector<std::pair<std::string, double>> parameters;  // the plugin's, by name
 };
 
-inline constexpr const char* kCameras[] = {"cockpit", "outside", "front", "side", "free"};
+inline constexpr const char* kCameras[] = {"cockpit", "bumper", "outside", "front", "side", "free"};
 
 // NAME (scenarios/NAME.toml below `root`) or FILE; `changes` are "path.to.key=value" with TOML values (bare
 // words are taken as strings).

@@ -17,6 +17,9 @@ constexpr double kAdaptedShare = 0.6;
 constexpr double kRoadDries_mm_per_s = 0.2 / 3600.0;  // on a mild day with traffic (unsourced)
 constexpr double kMostOnRoad_mm = 1.0;                // the rest runs off
 constexpr double kChaseBehind_m = 6.5, kChaseUp_m = 2.3;
+// Just before the nose of a car of usual length (4.3 m), at a seated driver's height: the world without
+// glass.
+const glm::dvec3 kBumper_m(3.6, 0.0, 1.2);
 
 std::vector<glm::dvec3> routePoints(const RoadView& road) {
   if (!road.route) return {glm::dvec3(0.0), glm::dvec3(10000.0, 0.0, 0.0)};
@@ -152,6 +155,9 @@ Eye Simulation::eyeOf(const CarState& car) const {
     forward = car.orientation * glm::dvec3(std::cos(pitch), 0.0, std::sin(pitch));
     fov_rad = static_cast<double>(car_.eye.fov_rad);
     eye.inside = true;
+  } else if (camera == "bumper") {
+    eye.position_m = toWorld(kBumper_m);
+    forward = car.orientation * glm::dvec3(1.0, 0.0, 0.0);
   } else if (camera == "free") {
     eye.position_m = free_camera.position_m;
     forward = {std::cos(free_camera.yaw_rad) * std::cos(free_camera.pitch_rad),

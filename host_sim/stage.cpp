@@ -71,6 +71,10 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
       road_scene_(std::move(models.road)) {
   if (car_scene_) car_ = carView(*car_scene_);
   if (road_scene_) road_ = roadView(*road_scene_);
+  if (!scenario.shelter) {
+    car_.shelters.clear();
+    road_.shelters.clear();
+  }
   renderer_ = std::make_unique<Renderer>(context);
   if (road_scene_)
     road_instance_ = renderer_->addInstance(renderer_->addScene(*road_scene_, SceneFrame::Road));

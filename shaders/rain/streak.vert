@@ -1,140 +1,44 @@
-// One streak: a quad along the drop's way past the eye.
-#include "shared/rain_drop.glsl"
-layout(std140, binding = 0) uniform ClassBlock {
-  RainClass classes[kRainClasses];
-  RainView rain_view;
-};
-layout(std140, binding = 1) uniform ShelterBlock { RainShelter rain_shelter; };
-#include "shared/rain_streak.glsl"
+// A corner of a streak's rectangle, in the picture's plane: the fragments tell along and across, depth and time by themselves. (One triangle
+// about it would spare the rasteriser the other, but its empty parts cost software GL twice what it saves.)
 #include "rain/streak.glsl"
+#include "shared/rain_drawn.glsl"
 
-layout(binding = 1) uniform samplerCube environment;
+layout(std430, binding = 1) readonly buffer Drawn { RainDrawn drawn[]; };
 
-layout(location = 0) in ivec4 record_cell;  // cell_x, cell_y, cell_z, fraction_xy
-layout(location = 1) in uvec4 record_rest;  // fraction_z_class, diameter_m, end, id
+layout(location = 0) flat out vec4 streak_line;    // xy: where it begins, window px; zw: its direction there
+layout(location = 1) flat out vec4 streak_depths;  // x: 1 / its length, 1/px; yz: 1 / depth at its ends, 1/m; w: half a pixel's width across it, px (< 1), + rainSolidCode
+layout(location = 2) flat out vec4 streak_ends;    // of its ends: xy: times, -1 .. 1 over the whole exposure; zw: 1 / radius, 1/px
+layout(location = 3) flat out vec4 streak_colour;  // rgb: as the target holds it; a: cover where it is densest
 
-layout(location = 0) out vec3 streak_at;           // along and across the streak, -1..1; depth along the view, m
-layout(location = 1) flat out vec4 streak_colour;  // rgb: as the target holds it; a: mean cover
-layout(location = 2) flat out vec3 streak_shape;   // what it is of, its quad's width by its length, lumps
-out vec3 segment_end_m;  // of what is drawn, from the eye: for transform feedback; no stage takes it, so that the linker leaves it out else
+// Where the streak begins and ends: for transform feedback; no stage takes them, so that the linker leaves them out else.
+out vec4 segment_px;
+out vec2 segment_depth_m;
+flat out uint segment_slot;
 
-const float kSharpFrom_m = 0.5;      // nearer drops are out of any lens's focus: spread until they cannot be seen
-const float kLeastWidth_px = 1.7;    // narrower streaks would be broken into dots by the pixel grid: spread and paler instead
-const float kDensest = 0.85;         // no streak hides what is behind it
-
-RainDrop readRecord() {
-  return RainDrop(record_cell.x, record_cell.y, record_cell.z, uint(record_cell.w), record_rest.x, uintBitsToFloat(record_rest.y),
-                  record_rest.z, record_rest.w);
-}
-
-vec2 onScreen(vec3 p) {
-  vec4 clip = look.clipFromWorldAtEye * vec4(p, 1.0);
-  return clip.xy / clip.w * 0.5 * look.viewport.zw;
-}
-
-vec3 irradianceOf(RainLamp lamp, vec3 drop) {
-  vec3 way = drop - lamp.place_inner.xyz;
-  float distance_m = max(length(way), 0.1);
-  float outer = lamp.direction_outer.w;
-  float cone = outer <= -1.0 ? 1.0 : smoothstep(outer, max(lamp.place_inner.w, outer + 1e-3), dot(way / distance_m, lamp.direction_outer.xyz));
-  return lamp.intensity.rgb * (cone / (distance_m * distance_m));
-}
-
-vec3 fromLamp(RainLamp lamp, vec3 drop, vec3 towards) {
-  return irradianceOf(lamp, drop) * rainPhase(dot(normalize(drop - lamp.place_inner.xyz), -towards));
-}
-
-// Mean radiance a drop shows. Its wide lens gathers 165 degrees of what lies behind it, so the finest it tells apart is which half of the
-// world it has before it. 0.94: what two faces of water let through.
-vec3 gathered(vec3 drop) {
-  vec3 towards = normalize(drop);
-  vec3 light;
-  if (look.environment > 0u) {
-    light = textureLod(environment, towards, max(float(look.environment) - 2.5, 0.0)).rgb;
-  } else {
-    light = mix(look.ground.rgb, look.sky.rgb, clamp(0.5 + 0.5 * towards.z, 0.0, 1.0));
-  }
-  light = 0.94 * light + look.sun_irradiance.rgb * rainPhase(dot(towards, look.sun_direction.xyz));
-  for (uint i = 0u; i < look.lamp_count; ++i) light += fromLamp(look.lamps[i], drop, towards);
-  return light;
-}
-
-// Mean radiance of what scatters all light alike to all sides: that of all round, less what ice and its soot take.
-vec3 scattered(vec3 drop) {
-  const float kKept = 0.95, kPerSteradian = 0.0795775;  // 1 / 4 pi
-  vec3 light = 0.5 * (look.sky.rgb + look.ground.rgb) + kPerSteradian * look.sun_irradiance.rgb;
-  for (uint i = 0u; i < look.lamp_count; ++i) light += kPerSteradian * irradianceOf(look.lamps[i], drop);
-  return kKept * light;
-}
-
-vec3 asInTarget(vec3 radiance) {
-  vec3 c = radiance * look.focal.w;
-  if (look.srgb == 0u) return c;
-  c = clamp(c, 0.0, 1.0);
-  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
-}
-
-void drawNothing() {
-  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-  streak_at = vec3(0.0);
-  streak_colour = vec4(0.0);
-  streak_shape = vec3(0.0);
-  segment_end_m = vec3(0.0);
-}
+const float kDot_px = 1e-2;  // shorter ways have no direction
 
 void main() {
-  RainDrop drop = readRecord();
-  if (drop.diameter_m <= 0.0) {
-    drawNothing();
-    return;
-  }
-  RainClass its_class = classes[rainClassOf(drop)];
-  int is_of = its_class.base.w;
-  RainStreak streak = rainStreak(drop, its_class, rain_view);
-  float depth = dot(streak.drop_m, look.forward.xyz);
-  float approach = dot(streak.velocity_mps, look.forward.xyz);
-  float from = streak.from_s, to = streak.to_s;
-  // The part before the eye.
-  if (depth + approach * from < kRainNearest_m) from = approach > 0.0 ? (kRainNearest_m - depth) / approach : 1.0;
-  if (depth + approach * to < kRainNearest_m) to = approach < 0.0 ? (kRainNearest_m - depth) / approach : -1.0;
-  if (from >= to) {
-    drawNothing();
-    return;
-  }
-
-  vec3 a = streak.drop_m + streak.velocity_mps * from, b = streak.drop_m + streak.velocity_mps * to;
-  vec2 a_px = onScreen(a), b_px = onScreen(b);
-  float drawn_px = distance(a_px, b_px);
-  vec2 along = drawn_px > 1e-3 ? (b_px - a_px) / drawn_px : vec2(0.0, 1.0);
+  RainDrawn d = drawn[uint(gl_VertexID) / 4u];
+  uint corner = uint(gl_VertexID) % 4u;
+  vec2 way = d.ends_px.zw - d.ends_px.xy;
+  float way_px = length(way);
+  vec2 along = way_px > kDot_px ? way / way_px : vec2(0.0, 1.0);
   vec2 across = vec2(-along.y, along.x);
-
-  bool at_end = (gl_VertexID & 1) != 0;
-  float side = (gl_VertexID & 2) != 0 ? 1.0 : -1.0;
-  vec3 p = at_end ? b : a;
-  segment_end_m = p;
-  float p_depth = dot(p, look.forward.xyz);
-  float diameter_px = drop.diameter_m * look.focal.y / p_depth;
-  float width_px = sqrt(diameter_px * diameter_px + kLeastWidth_px * kLeastWidth_px);
-  // A streak seen end on is a disk.
-  float longer_px = max(0.0, 0.5 * (width_px - drawn_px));
-  vec2 shift_px = along * (at_end ? longer_px : -longer_px) + across * (0.5 * side * width_px);
-
-  gl_Position = look.clipFromWorldAtEye * vec4(p, 1.0);
-  gl_Position.xy += shift_px * 2.0 / look.viewport.zw * gl_Position.w;
-  float half_s = 0.5 * rain_view.eye_velocity_exposure.w;
-  streak_at = vec3((at_end ? to : from) / half_s, side, p_depth);
-
-  // Cover by energy: the disk the drop is seen as, spread over all the streak would be, clipped or not. Measured at the streak's middle, so that
-  // both its ends agree.
-  float middle_depth = 0.5 * (dot(a, look.forward.xyz) + dot(b, look.forward.xyz));
-  float middle_px = drop.diameter_m * look.focal.y / middle_depth;
-  float middle_width_px = sqrt(middle_px * middle_px + kLeastWidth_px * kLeastWidth_px);
-  float whole_px = max(drawn_px * 2.0 * half_s / (to - from), middle_width_px);
-  float cover = look.focal.z * rainFilled(is_of) * rainCover(middle_px) / (whole_px * middle_width_px);
-  float focus = smoothstep(kRainNearest_m, kSharpFrom_m, middle_depth);
-  float white = rainWhite(is_of);
-  vec3 light = white < 1.0 ? gathered(streak.drop_m) : vec3(0.0);
-  if (white > 0.0) light = mix(light, scattered(streak.drop_m), white);
-  streak_colour = vec4(asInTarget(light), min(cover, kDensest) * streak.fade * focus);
-  streak_shape = vec3(float(is_of), middle_width_px / max(drawn_px, middle_width_px), float(drop.id & 0xffu) * (6.2831853 / 256.0));
+  vec2 depths_m = d.depths_times.xy, times = d.depths_times.zw;
+  vec2 radii_px = vec2(rainSoftened(d.radius_px_m / depths_m.x), rainSoftened(d.radius_px_m / depths_m.y));
+  float middle_px = d.radius_px_m * inversesqrt(depths_m.x * depths_m.y);  // as a drop's pace on the picture goes with the depths' product
+  float pixel_half_px = rainPixelHalf(along);
+  float length_px = rainLength(way_px, rainSoftened(middle_px)), longer_px = 0.5 * (length_px - way_px);
+  float side_px = max(radii_px.x, radii_px.y) + pixel_half_px;
+  float at_px = (corner & 1u) != 0u ? way_px + longer_px : -longer_px;
+  vec2 p = d.ends_px.xy + along * at_px + across * ((corner & 2u) != 0u ? side_px : -side_px);
+  float depth_m = (corner & 1u) != 0u ? depths_m.y : depths_m.x;
+  gl_Position = vec4(p * 2.0 / look.viewport.zw, rainStoredDepth(depth_m, look.depth_rows), 1.0);
+  streak_line = vec4(d.ends_px.xy - along * longer_px + look.viewport.xy + 0.5 * look.viewport.zw, along);
+  streak_depths = vec4(1.0 / length_px, 1.0 / depths_m, pixel_half_px + float(d.solid));
+  streak_ends = vec4(times, 1.0 / radii_px);
+  streak_colour = vec4(d.colour.rgb, d.colour.a * rainDwell(middle_px, times.y - times.x, length_px, pixel_half_px));
+  segment_px = d.ends_px;
+  segment_depth_m = depths_m;
+  segment_slot = d.slot;
 }

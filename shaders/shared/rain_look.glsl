@@ -43,15 +43,10 @@ RG_FN float rainSceneDepth(float stored, vec4 depth_rows, uint zero_to_one) {
   return abs(above / below);
 }
 
-// What share of the exposure a drop covers a pixel, summed over the streak's width and length, in px^2: the disk it is seen as. (Garg & Nayar
-// 2007: a pixel of the streak is covered for tau of T.)
-RG_FN float rainCover(float diameter_px) { return 0.7853982f * diameter_px * diameter_px; }
-
-// A streak's share of its mean cover across its width, s = -1..1: a rounded profile of mean 1.
-RG_FN float rainAcross(float s) { return 1.5f * max(0.0f, 1.0f - s * s); }
-
-// And along it, s = -1..1 over the whole exposure: soft ends, mean 1.
-RG_FN float rainAlong(float s) { return (1.0f - smoothstep(0.6f, 1.0f, abs(s))) * 1.25f; }
+// The other way: what clip space's z is of clip w there.
+RG_FN float rainStoredDepth(float depth_m, vec4 depth_rows) {
+  return (depth_rows.y - depth_rows.x * depth_m) / (depth_rows.w - depth_rows.z * depth_m);
+}
 
 // What a particle covers of the disk it is seen as. Aggregates of crystals are full of gaps: half (their area ratio is 0.3..0.6 in Heymsfield &
 // Miloshevich 2003).
@@ -62,16 +57,6 @@ RG_FN float rainFilled(int is_of) { return is_of == kRainIsSnow || is_of == kRai
 RG_FN float rainWhite(int is_of) {
   if (is_of == kRainIsRain) return 0.0f;
   return is_of == kRainIsMeltingSnow ? 0.5f : is_of == kRainIsSnow ? 1.0f : 0.9f;
-}
-
-// A solid particle's share of its mean cover at a point of what it sweeps, along and across it -1..1; mean 1 (to 1 %). `squareness`: of the
-// swept quad, its width by its length. Flakes are octagons with lumps by `lump_rad`, stones disks; both soft at their rim.
-RG_FN float rainSolid(float along, float across, float squareness, bool is_flake, float lump_rad) {
-  float ahead = max(abs(along) - (1.0f - squareness), 0.0f) / squareness, beside = abs(across);
-  float rim = is_flake ? max(max(ahead, beside), (ahead + beside) * 0.7071068f) : sqrt(ahead * ahead + beside * beside);
-  if (is_flake && squareness > 0.5f) rim *= 1.0f + 0.15f * cos(3.0f * atan(across, along) + lump_rad) * rim;
-  float square = is_flake ? 0.476f : 0.452f;
-  return (1.0f - smoothstep(0.5f, 1.0f, rim)) / (0.75f * (1.0f - squareness) + square * squareness);
 }
 
 // Henyey & Greenstein's phase function (1941), per steradian. Refraction sends most of a drop's light forward; 0.75 stands for it.

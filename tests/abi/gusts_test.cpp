@@ -216,10 +216,9 @@ class WindyCar {
   }
 
  private:
-  static const rg_api& api() {
-    static const test::PluginLibrary library;
-    return *library.api;
-  }
+  const rg_api& api() const { return *library_.api; }
+  // Its own, so that nothing keeps the library loaded when the car is gone.
+  test::PluginLibrary library_;
   rg_instance* instance_ = nullptr;
   int64_t tick_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "drawn.h"
 
+#include <array>
+
 #include "gl/objects.h"
 #include "gl_fixture.h"
 #include "rain/rain_gl.h"
@@ -9,12 +11,19 @@ namespace oracle {
 namespace {
 
 constexpr int kWidth_px = 128, kHeight_px = 72;  // where segments end does not depend on it
-// A strip of four vertices is fed back as two triangles, of which the first begins with the segment's ends.
-constexpr size_t kFedBack = 6;
+// What is fed back of each corner of a streak's two triangles.
+struct Corner {
+  glm::vec4 ends_px;
+  glm::vec2 depths_m;
+  uint32_t slot;
+};
+constexpr std::array<const char*, 3> kFedBack{"segment_px", "segment_depth_m", "segment_slot"};
+constexpr size_t kCorners = 6;
 
 // GL's functions take no pointer of ours; these are the draw call's that is under way.
 const GladGLContext* true_gl = nullptr;
-GLuint ends_buffer = 0;
+GLuint corners_buffer = 0;
+GLuint triangles_query = 0;
 
 // Links the program in use once more, so that it gives out its segments' ends.
 void askForEnds(const GladGLContext& gl) {
@@ -23,18 +32,29 @@ void askForEnds(const GladGLContext& gl) {
   const auto program = static_cast<GLuint>(current);
   gl.GetProgramiv(program, GL_TRANSFORM_FEEDBACK_VARYINGS, &asked);
   if (asked != 0) return;
-  const char* name = "segment_end_m";
-  gl.TransformFeedbackVaryings(program, 1, &name, GL_INTERLEAVED_ATTRIBS);
+  gl.TransformFeedbackVaryings(program, static_cast<GLsizei>(kFedBack.size()), kFedBack.data(),
+                               GL_INTERLEAVED_ATTRIBS);
   gl.LinkProgram(program);
 }
 
-// In the place of the plugin's glDrawArraysInstanced.
-void drawAndFeedBack(GLenum mode, GLint first, GLsizei count, GLsizei instances) {
+// In the place of the plugin's glMultiDrawElementsIndirect.
+void drawAndFeedBack(GLenum mode, GLenum type, const void* commands, GLsizei count, GLsizei stride) {
   askForEnds(*true_gl);
-  true_gl->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, ends_buffer);
+  true_gl->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, corners_buffer);
+  true_gl->BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, triangles_query);
   true_gl->BeginTransformFeedback(GL_TRIANGLES);
-  true_gl->DrawArraysInstanced(mode, first, count, instances);
+  true_gl->MultiDrawElementsIndirect(mode, type, commands, count, stride);
   true_gl->EndTransformFeedback();
+  true_gl->EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
+}
+
+// Where a point of the picture lies that far along the view.
+glm::dvec3 placeOf(const rg::ViewState& view, const glm::vec2& px, float depth_m) {
+  const glm::dmat4& p = view.clipFromEye;
+  const double depth = static_cast<double>(depth_m);
+  const glm::dvec2 ndc = glm::dvec2(px) * 2.0 / glm::dvec2(kWidth_px, kHeight_px);
+  const glm::dvec3 seen((ndc.x + p[2][0]) / p[0][0] * depth, (ndc.y + p[2][1]) / p[1][1] * depth, -depth);
+  return rg::rain::coneOf(view).eye_m + glm::transpose(glm::dmat3(view.eyeFromWorld)) * seen;
 }
 
 }  // namespace
@@ -43,22 +63,37 @@ struct DrawnStreaks::Gpu {
   Gpu(uint32_t capacity_drops, bool read_back)
       : plugins(rg::gl::loadContext(rg::test::GlContext::getProc, nullptr)),
         renderer(*plugins, capacity_drops),
-        ends(context.gl, capacity_drops * kFedBack * sizeof(glm::vec3)),
+        corners(context.gl, capacity_drops * kCorners * sizeof(Corner)),
         colour(context.gl, GL_RGBA32F, kWidth_px, kHeight_px),
         target(context.gl, {&colour}) {
-    if (read_back) plugins->gl.DrawArraysInstanced = drawAndFeedBack;
+    context.gl.GenQueries(1, &triangles);
+    if (read_back) plugins->gl.MultiDrawElementsIndirect = drawAndFeedBack;
+  }
+  ~Gpu() { context.gl.DeleteQueries(1, &triangles); }
+  Gpu(const Gpu&) = delete;
+  Gpu& operator=(const Gpu&) = delete;
+
+  // What was fed back, one corner for each streak.
+  std::vector<Corner> fedBack() const {
+    GLuint count = 0;
+    context.gl.GetQueryObjectuiv(triangles, GL_QUERY_RESULT, &count);
+    std::vector<Corner> all(size_t{count} * 3), first;
+    if (!all.empty()) corners.read(0, all.data(), all.size() * sizeof(Corner));
+    for (size_t i = 0; i < all.size(); i += kCorners) first.push_back(all[i]);
+    return first;
   }
 
   rg::test::GlContext context;
   std::unique_ptr<rg::gl::Context> plugins;  // the same context, as the plugin sees it
   rg::rain::RainRenderer renderer;
-  rg::gl::Buffer ends;
+  rg::gl::Buffer corners;
+  GLuint triangles = 0;
   rg::gl::Texture2D colour;
   rg::gl::Framebuffer target;
 };
 
 DrawnStreaks::DrawnStreaks(uint32_t capacity_drops, bool read_back)
-    : gpu_(std::make_unique<Gpu>(capacity_drops, read_back)) {}
+    : gpu_(std::make_unique<Gpu>(capacity_drops, read_back)), read_back_(read_back) {}
 DrawnStreaks::~DrawnStreaks() { gpu_->context.makeCurrent(); }
 
 std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::ViewState& view,
@@ -66,11 +101,11 @@ std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::View
   Gpu& g = *gpu_;
   g.context.makeCurrent();
   true_gl = &g.context.gl;
-  ends_buffer = g.ends.name();
+  corners_buffer = g.corners.name();
+  triangles_query = g.triangles;
   const uint32_t slot_end = upload.picture.slot_end;
   g.renderer.upload(upload);
   g.colour.zero();
-  g.ends.zero();
   rg::rain::RainDraw draw;
   draw.view = &view;
   draw.viewport_px = {0, 0, kWidth_px, kHeight_px};
@@ -80,13 +115,11 @@ std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::View
   draw.target.height_px = kHeight_px;
   g.renderer.draw(draw);
 
-  std::vector<glm::vec3> ends(slot_end * kFedBack);
-  if (!ends.empty()) g.ends.read(0, ends.data(), ends.size() * sizeof(glm::vec3));
-  const glm::dvec3 eye = rg::rain::coneOf(view).eye_m;
   std::vector<Segment> segments(slot_end);
-  for (size_t slot = 0; slot < slot_end; ++slot) {
-    const glm::vec3 from = ends[slot * kFedBack], to = ends[slot * kFedBack + 1];
-    if (from != to) segments[slot] = {true, eye + glm::dvec3(from), eye + glm::dvec3(to)};
+  if (!read_back_) return segments;
+  for (const Corner& c : g.fedBack()) {
+    segments.at(c.slot) = {true, placeOf(view, {c.ends_px.x, c.ends_px.y}, c.depths_m.x),
+                           placeOf(view, {c.ends_px.z, c.ends_px.w}, c.depths_m.y)};
   }
   return segments;
 }

@@ -1,5 +1,5 @@
-// The streaks' segments as the GPU draws them: the ends that streak.vert itself works out, in the plugin's
-// own draw call on its own buffers, read back by transform feedback.
+// The streaks' segments as the GPU draws them: where streak.vert itself draws them, in the plugin's own draw
+// call on its own buffers, read back by transform feedback.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -35,6 +35,7 @@ class DrawnStreaks {
  private:
   struct Gpu;
   std::unique_ptr<Gpu> gpu_;
+  bool read_back_;
 };
 
 }  // namespace oracle

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <vector>
 
 #include "gl/objects.h"
 #include "gl/program.h"
 #include "rain/region.h"
+#include "shared/rain_drawn.glsl"
 #include "shared/rain_look.glsl"
 
 namespace rg::rain {
@@ -18,11 +18,24 @@ using shared::RainLook;
 
 constexpr uint32_t kBatch = 1u << 15;  // records sent at once: 1 MiB
 
-// As streak.vert's ClassBlock.
+// As streak.comp's ClassBlock.
 struct ClassBlock {
   std::array<shared::RainClass, kClasses> classes;
   shared::RainView view;
 };
+
+constexpr uint32_t groupsOf(uint32_t slots) {
+  return (slots + shared::kRainDrawnGroup - 1) / shared::kRainDrawnGroup;
+}
+
+// The two triangles of each of a group's streaks, whose corners are four vertices.
+std::vector<uint32_t> quads() {
+  std::vector<uint32_t> indices;
+  for (uint32_t i = 0; i < shared::kRainDrawnGroup; ++i) {
+    for (const uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices.push_back(4 * i + corner);
+  }
+  return indices;
+}
 
 vec4 wide(const vec3& v) { return vec4(v, 0.0f); }
 
@@ -77,11 +90,12 @@ struct RainRenderer::Objects {
   void send(std::span<const uint32_t> slots, std::span<const RainDrop> records);
   void bindTarget(const RainTarget& target, bool soft_depth);
   void setDrawState(const RainDraw& draw, bool soft_depth);
+  void drawStreaks(uint32_t slot_end);
 
   const GladGLContext& gl;
   uint32_t capacity;
-  gl::Program streak, scatter;
-  gl::Buffer records, slots, fresh, classes, shelter, look;
+  gl::Program prepare, streak, scatter;
+  gl::Buffer records, slots, fresh, classes, shelter, look, drawn, commands, corners;
   gl::VertexArray vertices;
   gl::Sampler nearest, mipmapped;
   gl::Framebuffer colour_only;
@@ -96,6 +110,7 @@ struct RainRenderer::Objects {
 RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_drops)
     : gl(context.gl),
       capacity(capacity_drops),
+      prepare(gl, {"rain/streak.comp"}),
       streak(gl, {"rain/streak.vert", "rain/streak.frag"}),
       scatter(gl, {"rain/scatter.comp"}),
       records(gl, size_t{capacity} * sizeof(RainDrop)),
@@ -104,15 +119,16 @@ RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_dro
       classes(gl, sizeof(ClassBlock)),
       shelter(gl, sizeof(shared::RainShelter)),
       look(gl, sizeof(RainLook)),
+      drawn(gl, size_t{groupsOf(capacity)} * shared::kRainDrawnGroup * sizeof(shared::RainDrawn), 0),
+      commands(gl, size_t{groupsOf(capacity)} * sizeof(shared::RainCommand), 0),
+      corners(gl, std::span<const uint32_t>(quads())),
       vertices(gl),
       nearest(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
       mipmapped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
       colour_only(gl),
       last_write(capacity) {
   records.zero();
-  vertices.bindBuffer(0, records.name(), 0, sizeof(RainDrop), 1);
-  vertices.integerAttribute(0, 0, 4, GL_INT, 0);
-  vertices.integerAttribute(1, 0, 4, GL_UNSIGNED_INT, offsetof(RainDrop, fraction_z_class));
+  vertices.bindIndices(corners.name());
 }
 
 void RainRenderer::Objects::send(std::span<const uint32_t> to, std::span<const RainDrop> drops) {
@@ -167,6 +183,24 @@ void RainRenderer::Objects::setDrawState(const RainDraw& draw, bool soft_depth) 
   }
 }
 
+void RainRenderer::Objects::drawStreaks(uint32_t slot_end) {
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, classes.name());
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 1, shelter.name());
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 2, look.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, records.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, drawn.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, commands.name());
+  prepare.use();
+  prepare.set(0, slot_end);
+  gl.DispatchCompute(groupsOf(slot_end), 1, 1);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  streak.use();
+  gl.BindVertexArray(vertices.name());
+  gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
+  gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
+                               static_cast<GLsizei>(groupsOf(slot_end)), 0);
+}
+
 RainRenderer::RainRenderer(const gl::Context& context, uint32_t capacity)
     : objects_(std::make_unique<Objects>(context, capacity)) {}
 RainRenderer::~RainRenderer() = default;
@@ -212,19 +246,16 @@ void RainRenderer::draw(const RainDraw& draw) {
 
   o.bindTarget(draw.target, soft_depth);
   o.setDrawState(draw, soft_depth);
-  o.streak.use();
-  o.gl.BindVertexArray(o.vertices.name());
-  o.gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, o.classes.name());
-  o.gl.BindBufferBase(GL_UNIFORM_BUFFER, 1, o.shelter.name());
-  o.gl.BindBufferBase(GL_UNIFORM_BUFFER, 2, o.look.name());
-  o.gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(o.picture.slot_end));
+  o.drawStreaks(o.picture.slot_end);
 }
 
 void RainRenderer::forget() {
   Objects& o = *objects_;
+  o.prepare.forget();
   o.streak.forget();
   o.scatter.forget();
-  for (gl::Buffer* buffer : {&o.records, &o.slots, &o.fresh, &o.classes, &o.shelter, &o.look})
+  for (gl::Buffer* buffer :
+       {&o.records, &o.slots, &o.fresh, &o.classes, &o.shelter, &o.look, &o.drawn, &o.commands, &o.corners})
     buffer->forget();
   o.vertices.forget();
   o.nearest.forget();

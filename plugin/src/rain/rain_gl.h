@@ -65,8 +65,9 @@ class RainRenderer {
   void upload(Upload& upload);
 
   // Draws the drops as of the last upload, placed at draw.time_ns. Call within a state guard; touches:
-  // program, vertex array, uniform buffers 0 .. 2, texture units 0 and 1 with their samplers, draw
-  // framebuffer, viewport, blend, depth, raster state. Twice the same draw gives the same picture.
+  // program, vertex array, uniform buffers 0 .. 2, buffer bindings GL_SHADER_STORAGE_BUFFER 0 .. 2 and
+  // GL_DRAW_INDIRECT_BUFFER, texture units 0 and 1 with their samplers, draw framebuffer, viewport, blend,
+  // depth, raster state. Twice the same draw gives the same picture.
   void draw(const RainDraw& draw);
 
   void forget();  // the context is lost: free nothing
