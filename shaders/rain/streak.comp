@@ -18,12 +18,40 @@ layout(location = 0) uniform uint slot_end;
 
 const float kSharpFrom_m = 0.5;  // nearer drops are out of any lens's focus: spread until they cannot be seen (unsourced)
 const float kDensest = 0.85;     // no streak hides what is behind it, however large the gain (unsourced)
+const float kDarkBehind = 0.15;  // brightness beside the drop's at which half of the gain is left (unsourced)
+const int kLooksBehind = 4;
+
+layout(binding = 2) uniform sampler2D scene_colour;
 
 shared uint seen_bits[kRainDrawnGroup / 32u];
 
 vec2 onScreen(vec3 p) {
   vec4 clip = look.clipFromWorldAtEye * vec4(p, 1.0);
   return clip.xy / clip.w * 0.5 * look.viewport.zw;
+}
+
+float luminance(vec3 c) {
+  if (look.srgb != 0u) c = pow(max(c, 0.0), vec3(2.2));
+  return dot(c, vec3(0.2126, 0.7152, 0.0722));
+}
+
+// How bright, beside the drop, is what lies behind its streak: of a few places along it, as the host has drawn them.
+float brightnessBehind(vec2 from_px, vec2 to_px, vec3 drop_colour) {
+  vec2 size_px = look.viewport.zw;
+  float sum = 0.0;
+  for (int i = 0; i < kLooksBehind; ++i) {
+    vec2 p = mix(from_px, to_px, (float(i) + 0.5) / float(kLooksBehind)) + 0.5 * size_px;
+    sum += luminance(texelFetch(scene_colour, ivec2(look.viewport.xy + clamp(p, vec2(0.0), size_px - 1.0)), 0).rgb);
+  }
+  return sum / float(kLooksBehind) / max(luminance(drop_colour), 1e-6);
+}
+
+// The gain that a streak wants. Eyes judge a difference by how bright what it lies before is (Weber): before the dark a streak is seen as it is in
+// nature, before what is as bright as itself only with all of the gain.
+float gainBefore(float brightness) {
+  if (look.colour_behind == 0u) return look.focal.z;
+  float share = min(1.0, (1.0 + kDarkBehind) * brightness / (brightness + kDarkBehind));
+  return mix(min(1.0, look.focal.z), look.focal.z, share);
 }
 
 // The streak as it is to be drawn; false when none of it is in the picture.
@@ -49,11 +77,12 @@ bool drawnOf(uint slot, out RainDrawn result) {
   float middle_m = 0.5 * (depths_m.x + depths_m.y);
   float exposure_s = rain_view.eye_velocity_exposure.w;
   float densest = rainDensest(distance(from_px, to_px) * exposure_s / (to - from), radius_px_m / middle_m);
-  float gain = min(look.focal.z, kDensest / densest);
+  vec3 light = asInTarget(gathered(streak.drop_m));
+  float gain = min(gainBefore(brightnessBehind(from_px, to_px, light)), kDensest / densest);
   float focus = smoothstep(kRainNearest_m, kSharpFrom_m, middle_m);
   result.ends_px = vec4(from_px, to_px);
   result.depths_times = vec4(depths_m, vec2(from, to) * (2.0 / exposure_s));
-  result.colour = vec4(asInTarget(gathered(streak.drop_m)), gain * streak.fade * focus);
+  result.colour = vec4(light, gain * streak.fade * focus);
   result.radius_px_m = radius_px_m;
   return true;
 }

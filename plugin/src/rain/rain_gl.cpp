@@ -177,6 +177,11 @@ void RainRenderer::Objects::setDrawState(const RainDraw& draw, bool soft_depth) 
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(draw.view->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
   }
+  if (draw.target.color_texture != 0) {
+    // Read before the streaks are drawn, not while they are.
+    gl.BindTextureUnit(2, draw.target.color_texture);
+    gl.BindSampler(2, nearest.name());
+  }
   if (draw.lighting.environment_cube != 0) {
     gl.BindTextureUnit(1, draw.lighting.environment_cube);
     gl.BindSampler(1, mipmapped.name());
@@ -241,6 +246,7 @@ void RainRenderer::draw(const RainDraw& draw) {
   setLight(draw.lighting, look);
   look.lamp_count = setLamps(draw.lighting.lamps, coneOf(*draw.view).eye_m, look);
   look.soft_depth = soft_depth ? 1 : 0;
+  look.colour_behind = draw.target.color_texture != 0 ? 1 : 0;
   look.environment = levelsOfCube(o.gl, draw.lighting.environment_cube);
   o.look.write(0, &look, sizeof look);
 
