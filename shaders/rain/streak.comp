@@ -17,7 +17,7 @@ layout(std430, binding = 2) writeonly buffer Commands { RainCommand commands[]; 
 layout(location = 0) uniform uint slot_end;
 
 const float kSharpFrom_m = 0.5;  // nearer drops are out of any lens's focus: spread until they cannot be seen (unsourced)
-const float kDensest = 0.85;     // no streak hides what is behind it, however large the gain (unsourced)
+const float kDensest = 0.85;     // what is shown stronger than in nature hides no more of what is behind it (unsourced)
 
 shared uint seen_bits[kRainDrawnGroup / 32u];
 
@@ -49,7 +49,7 @@ bool drawnOf(uint slot, out RainDrawn result) {
   float middle_m = 0.5 * (depths_m.x + depths_m.y);
   float exposure_s = rain_view.eye_velocity_exposure.w;
   float densest = rainDensest(distance(from_px, to_px) * exposure_s / (to - from), radius_px_m / middle_m);
-  float gain = min(look.focal.z, kDensest / densest);
+  float gain = min(look.focal.z, max(1.0, kDensest / densest));
   float focus = smoothstep(kRainNearest_m, kSharpFrom_m, middle_m);
   result.ends_px = vec4(from_px, to_px);
   result.depths_times = vec4(depths_m, vec2(from, to) * (2.0 / exposure_s));

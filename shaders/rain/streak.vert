@@ -28,7 +28,7 @@ void main() {
   vec2 radii_px = vec2(rainSoftened(d.radius_px_m / depths_m.x), rainSoftened(d.radius_px_m / depths_m.y));
   float middle_px = d.radius_px_m * inversesqrt(depths_m.x * depths_m.y);  // as a drop's pace on the picture goes with the depths' product
   float pixel_half_px = rainPixelHalf(along);
-  float length_px = rainLength(way_px, rainSoftened(middle_px)), longer_px = 0.5 * (length_px - way_px);
+  float length_px = rainLength(way_px, middle_px), longer_px = 0.5 * (length_px - way_px);
   float side_px = max(radii_px.x, radii_px.y) + pixel_half_px;
   float at_px = (corner & 1u) != 0u ? way_px + longer_px : -longer_px;
   vec2 p = d.ends_px.xy + along * at_px + across * ((corner & 2u) != 0u ? side_px : -side_px);

@@ -39,12 +39,14 @@ RG_CONST float kRainSoft_px = 0.35f;
 // The radius that a drop's disk of `radius_px` is drawn with.
 RG_FN float rainSoftened(float radius_px) { return sqrt(radius_px * radius_px + kRainSoft_px * kRainSoft_px); }
 
-// Half the width that a pixel has across a streak of the direction `along`. A box so wide holds, for every direction in whole numbers (p, q), p + q of
-// the lines on which the grid's pixels lie, so that what falls on them adds up to the same at every offset.
+// Half the width that a pixel has across a streak of the direction `along`. A box so wide holds, for every direction in whole numbers (p, q),
+// p + q of the lines on which the grid's pixels lie, so that what falls on them adds up to
+// the same at every offset.
 RG_FN float rainPixelHalf(vec2 along) { return 0.5f * (abs(along.x) + abs(along.y)); }
 
-// A streak's length with that of the drop itself: one seen end on is a dot. 2.5 radii: a drop that rests covers its middle wholly.
-RG_FN float rainLength(float way_px, float radius_px) { return sqrt(way_px * way_px + 6.25f * radius_px * radius_px); }
+// A streak's length with that of the drop itself (2.5 radii: a drop that rests covers its middle wholly) and of the pixels: one seen end on is a
+// dot. 2.5 px: so far apart lie two sides of rainShutter that make pixels add up to the same at every offset.
+RG_FN float rainLength(float way_px, float radius_px) { return sqrt(way_px * way_px + 6.25f * (radius_px * radius_px + 1.0f)); }
 
 // Share of a disk that lies left of `s` radii from its middle: 1/2 + (s sqrt(1 - s^2) + asin s) / pi, to 0.005.
 RG_FN float rainDiskLeftOf(float s) {
@@ -66,8 +68,10 @@ RG_FN float rainDwell(float radius_px, float times, float length_px, float pixel
   return 3.1415927f * radius_px * radius_px * times / (2.0f * length_px * 2.0f * pixel_half_px);
 }
 
-// The greatest tau/T, wherever pixels are small: of a drop whose whole way would be `way_px` long.
-RG_FN float rainDensest(float way_px, float radius_px) { return 2.56f * radius_px / max(rainLength(way_px, radius_px), 1.0e-9f); }
+// The greatest tau/T, were pixels small, of a drop whose way over the whole exposure is `way_px` long.
+RG_FN float rainDensest(float way_px, float radius_px) {
+  return 2.56f * radius_px / sqrt(max(way_px * way_px + 6.25f * radius_px * radius_px, 1.0e-18f));
+}
 
 RG_SHARED_END
 #endif

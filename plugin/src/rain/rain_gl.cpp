@@ -199,6 +199,7 @@ void RainRenderer::Objects::drawStreaks(uint32_t slot_end) {
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
   gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                                static_cast<GLsizei>(groupsOf(slot_end)), 0);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's streaks do not overtake these
 }
 
 RainRenderer::RainRenderer(const gl::Context& context, uint32_t capacity)
