@@ -1,4 +1,4 @@
-// What of a streak is handed to the rasteriser (written by streak.comp, read by streak.vert), and how much of each pixel it covers.
+// What of a streak is handed to the rasteriser (by streak.comp), and how much of each pixel it covers.
 //
 // A drop covers what is behind it for the time tau that it takes to pass: I = (1 - tau/T) I_background + (tau/T) E_drop, T the exposure (Garg &
 // Nayar 2007, "Vision and Rain", IJCV 75(1)). tau/T of a pixel is the integral over the exposure of the share of it that the drop's disk
@@ -12,16 +12,14 @@ RG_SHARED_BEGIN
 
 RG_CONST uint kRainDrawnGroup = 256u;  // slots a workgroup looks at, and one draw command draws
 
-struct RainDrawn {
-  vec4 ends_px;         // xy: where the streak begins, from the viewport's middle; zw: where it ends
-  vec4 depths_times;    // xy: its ends' depth along the view, m; zw: their times, -1 .. 1 over the whole exposure
-  vec4 colour;          // rgb: as the target holds it; a: how much more than in nature it covers (1: as much)
-  float radius_px_m;    // of the drop, px at 1 m
-  uint slot;
-  uint spare0;
-  uint spare1;
+// A corner of a streak's rectangle; four make a streak, the first and second pair at its sides. All corners read what is told of the streak from
+// this one on, which is right for the first, and that is the one which flat values are taken from.
+struct RainCorner {
+  vec4 place;  // xyz: in clip space; w, for tests, of the corners in turn: the drop's slot; how much longer the streak is drawn at either end, px;
+               // x and y of where it ends, px from the viewport's middle
+  vec4 told;   // of the corners in turn: streak.vert's streak_line, streak_depths, streak_ends, streak_colour
 };
-RG_SIZE(RainDrawn, 64)
+RG_SIZE(RainCorner, 32)
 
 // As glMultiDrawElementsIndirect reads it.
 struct RainCommand {
