@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,16 +20,12 @@ inline constexpr uint32_t kEndUnits = 1024;  // of a tick, as shared::kRainEndUn
 
 struct Field::State {
   explicit State(const FieldSettings& given)
-      : settings(given),
-        drops(std::clamp(given.capacity, 1000u, 4000000u)),
-        threshold(drops.capacity(), 0.0f),
-        border(cells) {}
+      : settings(given), drops(std::clamp(given.capacity, 1000u, 4000000u)), border(cells) {}
 
   FieldSettings settings;
   Visibility visibility;
   WindProfile profile;  // from the next tick on
   Drops drops;
-  std::vector<float> threshold;  // by slot, as Candidate's
   Cells cells;
   Border border;
   Shelter shelter;
@@ -39,7 +36,8 @@ struct Field::State {
   bool running = false;  // since the last seek a tick has been
   int64_t epoch = 0, tick = 0;
   double ceiling_m = 0.0;
-  double keep = 1.0;  // share of the law's drops that is born
+  double keep = 1.0;                            // share of the law's drops that is born
+  std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
   uint64_t born = 0, died = 0, sheltered = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
@@ -49,6 +47,8 @@ struct Field::State {
   void start(const Tick& t);
   void moveTo(const Tick& t);
   void forgetCells();
+  void clearCells();
+  void fillEnteredCells();
   void followViews(const Tick& t);
   void emptyLeftCells();
   void expireDrops();
@@ -56,7 +56,10 @@ struct Field::State {
 
   // field_births.cpp: which drops a cell holds, and until when.
   void fillCell(uint32_t index);
-  bool birth(uint32_t index, const Candidate& candidate, const RateHistory::Entry& then, bool near_volume);
+  void fillStanding(uint32_t index, const CellKey& key, bool& looked);
+  const RateHistory::Entry& whenFallen(const CellKey& key, const Candidate& candidate) const;
+  double chanceAt(double density_m3, uint32_t kind) const;
+  bool birth(uint32_t index, const CellKey& key, const Candidate& candidate, const RateHistory::Entry& then);
   void retest();
   void retestCell(uint32_t index);
   glm::dvec3 cellMiddle(const CellKey& key) const;
