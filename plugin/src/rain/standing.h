@@ -9,26 +9,26 @@
 
 namespace rg::rain {
 
-// A drop that may be: it exists wherever the class has more than `threshold_m3` drops per m3. With thresholds
-// in ascending order as a Poisson process of their own, the drops that exist are a Poisson field of the right
-// density at every rate, and a rate that changes only adds or takes away drops, never swaps them.
+// A drop that may be: it exists wherever its cell would be empty of drops with a probability, exp(-mean
+// number), below `chance`. The chances of a cell are products of uniform numbers (Knuth, The Art of Computer
+// Programming 2, 3.4.1), so that the drops that exist are a Poisson field of the right density at every rate,
+// and a rate that changes only adds or takes away drops, never swaps them.
 struct Candidate {
-  double threshold_m3 = 0.0;
+  double chance = 1.0;
   uint32_t fraction_x = 0, fraction_y = 0, fraction_z = 0;  // of the cell, 16 bits
   double size = 0.0;  // 0 .. 1, its place among the class's drops ordered by size
   uint32_t id = 0;
 };
 
-// Walks a cell's candidates, thresholds ascending without end.
+// Walks a cell's candidates, chances descending without end.
 class Candidates {
  public:
-  Candidates(uint64_t seed, const CellKey& key, double cell_m3);
+  Candidates(uint64_t seed, const CellKey& cell);
   const Candidate& next();
 
  private:
   uint64_t draw();
   uint64_t state_;
-  double per_gap_m3_;
   Candidate candidate_;
 };
 
@@ -49,6 +49,11 @@ class RateHistory {
   struct Entry {
     SizeLaw law;
     std::array<double, kSpeedClasses> density_m3{};
+    // Of a candidate's drop, in whole tenths of a micrometre, so that the last digit of a machine's logarithm
+    // does not show.
+    float diameter_m(uint32_t kind, double size) const;
+    double per_slope_mm = 0.0;
+    std::array<double, kSpeedClasses> from_mm{}, part{};  // 1 - exp(-slope * width)
   };
   void fill(double rate_mm_h);
   void add(double rate_mm_h);  // one tick on

@@ -1,0 +1,78 @@
+// What the views look into from tick to tick: which cells come into sight, and which go out of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rain/cells.h"
+#include "rain/class_frames.h"
+#include "rain/region.h"
+#include "tick.h"
+
+namespace rg::rain {
+
+// One view, as far as the field follows it.
+struct FollowedView {
+  uint32_t id = 0;
+  bool told = false;   // in this tick
+  bool moved = false;  // `eye_m` and `worldFromEye` are of the tick before
+  glm::dvec3 eye_m{0.0};
+  glm::dquat worldFromEye{1, 0, 0, 0};
+  double streak_m = 0.0;  // of the longest streak, from the drop to its end
+  uint32_t current = 0;
+  std::array<std::array<RowSet, kSpeedClasses>, 2> rows;
+};
+
+// What a tick's views look for.
+struct Sought {
+  std::span<const ViewState> views;
+  double reach_per_diameter = 1.0;            // drops are seen as far as this times their diameter
+  std::array<bool, kSpeedClasses> classes{};  // that may have drops: the others have no cells
+};
+
+// The border's cells are blocks of 2^level cells of the standing lattice along each axis, so that there are
+// no more of them however far drops are seen: six to twelve along a class's reach, six as a rule.
+class Border {
+ public:
+  explicit Border(Cells& cells);
+
+  static uint32_t levelFor(double reach_per_diameter);
+  uint32_t level() const { return level_; }
+  // Begins anew, no view having looked anywhere; the cells are cleared by their owner.
+  void clear(uint32_t level);
+  double cell_m(uint32_t kind) const;
+
+  // Takes the views to a tick. Views that are not told any more look into nothing.
+  void follow(const Sought& sought, const ClassFrames& frames);
+
+  // Cells that came into sight with the last follow(), each once.
+  const std::vector<uint32_t>& entered() const { return entered_; }
+  // Cells that no view looks into any more: each must be emptied and freed before the next follow().
+  const std::vector<uint32_t>& left() const { return left_; }
+  uint32_t cellsOf(uint32_t kind) const { return cells_of_[kind]; }  // in sight
+
+  std::span<const std::unique_ptr<FollowedView>> views() const { return views_; }
+  void shift(const glm::dvec3& shift_m);
+
+ private:
+  void followView(FollowedView& view, const ViewState& told, const Sought& sought, const ClassFrames& frames);
+  void replaceRows(const RowSet& before, const RowSet& after, uint32_t kind);
+  void replaceRow(RowSpan was, RowSpan is, uint32_t kind, int32_t y, int32_t z);
+  void enter(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last);
+  void leave(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last);
+  void releaseCells();
+
+  Cells& cells_;
+  uint32_t level_ = 0;
+  std::vector<std::unique_ptr<FollowedView>> views_;
+  std::array<uint32_t, kSpeedClasses> cells_of_{};
+  std::vector<uint32_t> entered_, left_;
+  std::vector<CellKey> released_;  // by a view in this tick
+};
+
+}  // namespace rg::rain

@@ -1,0 +1,139 @@
+// Which drops a cell holds, and until when: born with their cell, unless a volume kept them off, and asked
+// again when what was foreseen is no longer right.
+#include <algorithm>
+#include <cmath>
+
+#include "rain/field_state.h"
+
+namespace rg::rain {
+namespace {
+
+using glm::dvec3;
+
+constexpr uint32_t kEndless = 1u << 30;   // ticks' units ahead: 2.4 h, longer than any drop stays in view
+constexpr double kLongestEnd_s = 8000.0;  // ends beyond are none
+
+}  // namespace
+
+dvec3 Field::State::cellMiddle(const CellKey& key) const {
+  return frames.origin(key.kind) + (dvec3(key.x, key.y, key.z) + 0.5) * border.cell_m(key.kind);
+}
+
+bool Field::State::lookAround(const CellKey& key, bool past) {
+  if (shelter.empty()) return false;
+  return shelter.lookAround(cellMiddle(key), dvec3(0.5 * border.cell_m(key.kind)), frames.path(key.kind),
+                            time_s(), past);
+}
+
+// A cell of the border is a block of the standing lattice's, which are filled one by one.
+void Field::State::fillCell(uint32_t index) {
+  const CellKey block = cells[index].key;
+  bool looked = false;
+  const int32_t side = 1 << border.level();
+  for (int32_t x = 0; x < side; ++x) {
+    for (int32_t y = 0; y < side; ++y) {
+      for (int32_t z = 0; z < side; ++z)
+        fillStanding(index, {block.x * side + x, block.y * side + y, block.z * side + z, block.kind}, looked);
+    }
+  }
+}
+
+void Field::State::fillStanding(uint32_t index, const CellKey& key, bool& looked) {
+  const double least = least_chance[key.kind];
+  Candidates candidates(settings.seed, key);
+  for (const Candidate* c = &candidates.next(); c->chance > least; c = &candidates.next()) {
+    if (!looked) cells[index].near_volume = lookAround(cells[index].key, true);
+    looked = true;
+    const RateHistory::Entry& then = rate.steady() ? rate.now() : whenFallen(key, *c);
+    if (!rate.steady() && c->chance <= chanceAt(then.density_m3[key.kind], key.kind)) continue;
+    if (!birth(index, key, *c, then)) return;
+  }
+}
+
+// What rain there is where a drop is was decided when it fell through the ceiling.
+const RateHistory::Entry& Field::State::whenFallen(const CellKey& key, const Candidate& candidate) const {
+  const ClassLattice& lattice = classLattices()[key.kind];
+  const double z = frames.origin(key.kind).z + (key.z + candidate.fraction_z * 0x1p-16) * lattice.cell_m;
+  const double delay = std::max(0.0, ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz);
+  return rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
+}
+
+// The least chance of a drop that exists where the law has so many.
+double Field::State::chanceAt(double density_m3, uint32_t kind) const {
+  return std::exp(-keep * density_m3 * classLattices()[kind].cell_m3);
+}
+
+// False when the buffer is full.
+bool Field::State::birth(uint32_t index, const CellKey& key, const Candidate& candidate,
+                         const RateHistory::Entry& then) {
+  RainDrop drop{};
+  drop.cell_x = key.x;
+  drop.cell_y = key.y;
+  drop.cell_z = key.z;
+  drop.fraction_xy = candidate.fraction_x | candidate.fraction_y << 16;
+  drop.fraction_z_class = candidate.fraction_z | key.kind << 16;
+  drop.diameter_m = then.diameter_m(key.kind, candidate.size);
+  drop.id = candidate.id;
+  drop.end = now() + kEndless;
+  bool ends = false;
+  if (cells[index].near_volume) {
+    const dvec3 place = placeOf(drop);
+    const ClassPath& path = frames.path(key.kind);
+    const double enters_s = shelter.willEnter(place, path, time_s());
+    if (enters_s <= 0.0 || shelter.cameThrough(place, path, time_s())) {
+      ++sheltered;
+      return true;
+    }
+    ends = endOf(enters_s, drop.end);
+  }
+  const uint32_t slot =
+      drops.add(drop, static_cast<float>(candidate.chance), index, cells[index].bunch, ends, now());
+  if (slot == kNone) return false;
+  ++born;
+  return true;
+}
+
+dvec3 Field::State::placeOf(const RainDrop& drop) const {
+  const uint32_t kind = shared::rainClassOf(drop);
+  const dvec3 fraction(drop.fraction_xy & 0xffffu, drop.fraction_xy >> 16, drop.fraction_z_class & 0xffffu);
+  return frames.origin(kind) + (dvec3(drop.cell_x, drop.cell_y, drop.cell_z) + (fraction + 0.5) * 0x1p-16) *
+                                   classLattices()[kind].cell_m;
+}
+
+// Rounded down, so that the drop does not outlive its entry.
+bool Field::State::endOf(double after_s, uint32_t& end) const {
+  const bool ends = after_s < kLongestEnd_s;
+  end = now() + (ends ? static_cast<uint32_t>(after_s * kTickHz * kEndUnits) : kEndless);
+  return ends;
+}
+
+// What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked
+// again where they end, also in cells that were not near a volume before. Where they came from has not
+// changed: drops that never were stay so.
+void Field::State::retest() {
+  for (uint32_t index = 0; index < cells.poolSize(); ++index) {
+    if (cells[index].views > 0 && cells[index].bunch != kNone) retestCell(index);
+  }
+}
+
+void Field::State::retestCell(uint32_t index) {
+  Cell& cell = cells[index];
+  const bool near_volume = lookAround(cell.key, false);
+  if (!near_volume && !cell.near_volume) return;
+  cell.near_volume = near_volume;
+  drops.forEach(cell.bunch, [&](uint32_t slot) {
+    const double enters_s =
+        near_volume ? shelter.willEnter(placeOf(drops[slot]), frames.path(cell.key.kind), time_s())
+                    : kNever_s;
+    uint32_t end = 0;
+    const bool ends = endOf(enters_s, end);
+    if (enters_s <= 0.0) {
+      drops.remove(slot, cell.bunch);
+      ++died;
+    } else if (ends != drops.ends(slot) || (ends && end != drops[slot].end)) {
+      drops.setEnd(slot, end, ends, now());
+    }
+  });
+}
+
+}  // namespace rg::rain

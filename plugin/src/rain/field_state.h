@@ -1,0 +1,74 @@
+// What the field knows, for the files that make it up.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "rain/border.h"
+#include "rain/cells.h"
+#include "rain/class_frames.h"
+#include "rain/drops.h"
+#include "rain/field.h"
+#include "rain/shelter.h"
+#include "rain/standing.h"
+
+namespace rg::rain {
+
+inline constexpr uint32_t kEndUnits = 1024;  // of a tick, as shared::kRainEndUnits
+
+struct Field::State {
+  explicit State(const FieldSettings& given)
+      : settings(given), drops(std::clamp(given.capacity, 1000u, 4000000u)), border(cells) {}
+
+  FieldSettings settings;
+  Visibility visibility;
+  WindProfile profile;  // from the next tick on
+  Drops drops;
+  Cells cells;
+  Border border;
+  Shelter shelter;
+  ClassFrames frames;
+  RateHistory rate;
+
+  bool started = false;  // the lattice has its origin
+  bool running = false;  // since the last seek a tick has been
+  int64_t epoch = 0, tick = 0;
+  double ceiling_m = 0.0;
+  double keep = 1.0;                            // share of the law's drops that is born
+  std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
+  uint64_t born = 0, died = 0, sheltered = 0, uploaded = 0, tests_before = 0;
+
+  double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
+  uint32_t now() const { return static_cast<uint32_t>(static_cast<uint64_t>(tick - epoch) * kEndUnits); }
+  double reachPerDiameter() const { return visibility.factor * visibility.reference_px; }
+
+  void start(const Tick& t);
+  void moveTo(const Tick& t);
+  void forgetCells();
+  void clearCells();
+  void fillEnteredCells();
+  void followViews(const Tick& t);
+  void emptyLeftCells();
+  void expireDrops();
+  void thin();
+
+  // field_births.cpp: which drops a cell holds, and until when.
+  void fillCell(uint32_t index);
+  void fillStanding(uint32_t index, const CellKey& key, bool& looked);
+  const RateHistory::Entry& whenFallen(const CellKey& key, const Candidate& candidate) const;
+  double chanceAt(double density_m3, uint32_t kind) const;
+  bool birth(uint32_t index, const CellKey& key, const Candidate& candidate, const RateHistory::Entry& then);
+  void retest();
+  void retestCell(uint32_t index);
+  glm::dvec3 cellMiddle(const CellKey& key) const;
+  bool lookAround(const CellKey& key, bool past);
+  glm::dvec3 placeOf(const RainDrop& drop) const;
+  bool endOf(double after_s, uint32_t& end) const;
+
+  // field_picture.cpp: what is handed out.
+  void describe(Picture& picture) const;
+};
+
+}  // namespace rg::rain
