@@ -7,7 +7,6 @@ layout(std140, binding = 0) uniform ClassBlock {
 };
 layout(std140, binding = 1) uniform ShelterBlock { RainShelter rain_shelter; };
 #include "rain/gain.glsl"
-#include "rain/gain.glsl"
 #include "rain/light.glsl"
 #include "shared/rain_drawn.glsl"
 #include "shared/rain_streak.glsl"
