@@ -13,6 +13,7 @@ struct rg_instance {
   rg::Frame frame;
   rg_log_fn log;
   void* log_user;
+  bool told_of_near_volumes = false;  // too many of them: told once
 };
 
 namespace rg {
@@ -27,7 +28,7 @@ constexpr double kMaxDouble = 1.7e308;  // any finite number
 thread_local char create_error[256];
 
 // Numbers of log messages: the negated result code for refused calls, from 100 on for remarks.
-enum : uint32_t { kLogThinned = 101, kLogTimeDropped = 102, kLogAttached = 103 };
+enum : uint32_t { kLogThinned = 101, kLogTimeDropped = 102, kLogAttached = 103, kLogNearVolumes = 104 };
 
 void say(const rg_instance& instance, rg_log_level level, uint32_t message, const std::string& text) {
   if (instance.log != nullptr) instance.log(instance.log_user, level, message, text.c_str());
@@ -325,6 +326,13 @@ rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, ui
     if (result == RG_REMARK_TIME_DROPPED)
       say(*instance, RG_LOG_WARNING, kLogTimeDropped,
           "a stall was longer than time.catch_up_s: simulated time was left out");
+    if (!instance->told_of_near_volumes && !frame.nearVolumesFit()) {
+      instance->told_of_near_volumes = true;
+      say(*instance, RG_LOG_WARNING, kLogNearVolumes,
+          "more than 64 volumes, or 512 of their planes, are near a view: rain is drawn only before the "
+          "first "
+          "that is left out");
+    }
     return result;
   });
 }

@@ -169,6 +169,8 @@ ViewState readView(const rg_view* in) {
       state.clipFromEye[1][1] == 0.0) {
     refuse("rg_view.projection has no inverse: the view has no volume");
   }
+  if (state.clipFromEye[2][3] == 0.0)
+    refuse("rg_view.projection is orthographic: rain is seen from an eye, in perspective");
   state.clip_zero_to_one = v.clip_zero_to_one != 0;
   state.reversed_depth = v.reversed_depth != 0;
   checkRange(v.exposure_s, 1e-5, 0.25, "rg_view.exposure_s");

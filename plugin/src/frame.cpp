@@ -229,6 +229,11 @@ rain::FieldStats Frame::rainStats() {
   return field_.stats();
 }
 
+bool Frame::nearVolumesFit() const {
+  const std::lock_guard lock(sim_);
+  return upload_.picture.volumesFit();
+}
+
 glass::PaneStats Frame::paneStats(uint32_t id) {
   const std::lock_guard lock(sim_);
   PaneObject& p = pane(id);

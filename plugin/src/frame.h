@@ -88,6 +88,8 @@ class Frame {
   // Questions.
   rain::FieldStats rainStats();
   double rainRate();
+  // False when more volumes are near the views than streaks can be clipped at; see setUpStreaks.
+  bool nearVolumesFit() const;
   glass::PaneStats paneStats(uint32_t pane);
   uint64_t hash(bool with_glass);
   const gl::Timers& timers() const { return timers_; }

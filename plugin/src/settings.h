@@ -34,8 +34,8 @@ struct SettingInfo {
 
 inline constexpr SettingInfo kSettings[] = {
     {"rain.gain", "1", "rain",
-     "how much stronger than in nature a streak covers what is behind it; 1 = physical, for camera-sensor "
-     "work",
+     "how much stronger than in nature a streak covers what is behind it, where that is as bright as the "
+     "streak; less before the dark; 1 = physical everywhere, for camera-sensor work",
      0.0, 50.0, &Settings::rain_gain},
     {"rain.visibility_factor", "1", "rain",
      "a drop is a particle to the distance factor * reference_px * diameter", 0.25, 4.0,

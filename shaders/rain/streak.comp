@@ -6,18 +6,20 @@ layout(std140, binding = 0) uniform ClassBlock {
   RainView rain_view;
 };
 layout(std140, binding = 1) uniform ShelterBlock { RainShelter rain_shelter; };
+#include "rain/gain.glsl"
 #include "rain/light.glsl"
 #include "shared/rain_drawn.glsl"
 #include "shared/rain_streak.glsl"
 
 layout(local_size_x = kRainDrawnGroup) in;
 layout(std430, binding = 0) readonly buffer Records { RainDrop records[]; };
-layout(std430, binding = 1) writeonly buffer Drawn { RainDrawn drawn[]; };
+layout(std430, binding = 1) writeonly buffer Drawn { RainCorner drawn[]; };
 layout(std430, binding = 2) writeonly buffer Commands { RainCommand commands[]; };
 layout(location = 0) uniform uint slot_end;
 
 const float kSharpFrom_m = 0.5;  // nearer drops are out of any lens's focus: spread until they cannot be seen (unsourced)
-const float kDensest = 0.85;     // no streak hides what is behind it, however large the gain (unsourced)
+const float kDensest = 0.85;     // what is shown stronger than in nature hides no more of what is behind it (unsourced)
+const float kDot_px = 1e-2;      // shorter ways have no direction
 
 shared uint seen_bits[kRainDrawnGroup / 32u];
 
@@ -26,9 +28,18 @@ vec2 onScreen(vec3 p) {
   return clip.xy / clip.w * 0.5 * look.viewport.zw;
 }
 
-// The streak as it is to be drawn; false when none of it is in the picture.
-bool drawnOf(uint slot, out RainDrawn result) {
-  result = RainDrawn(vec4(0.0), vec4(0.0), vec4(0.0), 0.0, slot, 0u, 0u);
+// What is to be drawn of a drop.
+struct Seen {
+  vec4 ends_px;       // xy: where the streak begins, from the viewport's middle; zw: where it ends
+  vec4 depths_times;  // xy: its ends' depth along the view, m; zw: their times, -1 .. 1 over the whole exposure
+  vec4 colour;        // rgb: as the target holds it; a: how much more than in nature it covers (1: as much)
+  float radius_px_m;  // of the drop, px at 1 m
+  uint solid;         // rainSolidCode
+};
+
+// False when none of it is in the picture.
+bool seenOf(uint slot, out Seen result) {
+  result = Seen(vec4(0.0), vec4(0.0), vec4(0.0), 0.0, 0u);
   RainDrop drop = records[slot];
   if (drop.diameter_m <= 0.0) return false;
   RainClass its_class = classes[rainClassOf(drop)];
@@ -51,22 +62,47 @@ bool drawnOf(uint slot, out RainDrawn result) {
   float middle_m = 0.5 * (depths_m.x + depths_m.y);
   float exposure_s = rain_view.eye_velocity_exposure.w;
   float densest = rainDensest(distance(from_px, to_px) * exposure_s / (to - from), radius_px_m / middle_m);
-  float gain = min(look.focal.z * rainFilled(is_of), kDensest / densest);
+  vec3 light = asInTarget(shown(streak.drop_m, is_of));
+  float gain = rainFilled(is_of) * min(gainOf(from_px, to_px, light), max(1.0, kDensest / densest));
   float focus = smoothstep(kRainNearest_m, kSharpFrom_m, middle_m);
   result.ends_px = vec4(from_px, to_px);
   result.depths_times = vec4(depths_m, vec2(from, to) * (2.0 / exposure_s));
-  result.colour = vec4(asInTarget(shown(streak.drop_m, is_of)), gain * streak.fade * focus);
+  result.colour = vec4(light, gain * streak.fade * focus);
   result.radius_px_m = radius_px_m;
   result.solid = rainSolidCode(is_of, drop.id);
   return true;
+}
+
+// The rectangle in the picture's plane: the fragments tell along and across, depth and time by themselves.
+void put(uint first, uint slot, Seen s) {
+  vec2 way = s.ends_px.zw - s.ends_px.xy;
+  float way_px = length(way);
+  vec2 along = way_px > kDot_px ? way / way_px : vec2(0.0, 1.0);
+  vec2 depths_m = s.depths_times.xy, times = s.depths_times.zw;
+  vec2 radii_px = vec2(rainSoftened(s.radius_px_m / depths_m.x), rainSoftened(s.radius_px_m / depths_m.y));
+  float middle_px = s.radius_px_m * inversesqrt(depths_m.x * depths_m.y);  // as a drop's pace on the picture goes with the depths' product
+  float pixel_half_px = rainPixelHalf(along);
+  float length_px = rainLength(way_px, middle_px), longer_px = 0.5 * (length_px - way_px);
+  vec2 side = vec2(-along.y, along.x) * (max(radii_px.x, radii_px.y) + pixel_half_px);
+  vec2 from_px = s.ends_px.xy - along * longer_px, to_px = s.ends_px.zw + along * longer_px;
+  vec2 clip = 2.0 / look.viewport.zw;
+  float from_stored = rainStoredDepth(depths_m.x, look.depth_rows), to_stored = rainStoredDepth(depths_m.y, look.depth_rows);
+  drawn[first].place = vec4((from_px - side) * clip, from_stored, float(slot));
+  drawn[first].told = vec4(from_px + look.viewport.xy + 0.5 * look.viewport.zw, along);
+  drawn[first + 1u].place = vec4((from_px + side) * clip, from_stored, longer_px);
+  drawn[first + 1u].told = vec4(1.0 / length_px, 1.0 / depths_m, pixel_half_px + float(s.solid));
+  drawn[first + 2u].place = vec4((to_px - side) * clip, to_stored, s.ends_px.z);
+  drawn[first + 2u].told = vec4(times, 1.0 / radii_px);
+  drawn[first + 3u].place = vec4((to_px + side) * clip, to_stored, s.ends_px.w);
+  drawn[first + 3u].told = vec4(s.colour.rgb, s.colour.a * rainDwell(middle_px, times.y - times.x, length_px, pixel_half_px));
 }
 
 void main() {
   uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x;
   if (lane < kRainDrawnGroup / 32u) seen_bits[lane] = 0u;
   barrier();
-  RainDrawn result;
-  bool seen = drawnOf(min(gl_GlobalInvocationID.x, slot_end - 1u), result) && gl_GlobalInvocationID.x < slot_end;
+  Seen result;
+  bool seen = seenOf(min(gl_GlobalInvocationID.x, slot_end - 1u), result) && gl_GlobalInvocationID.x < slot_end;
   if (seen) atomicOr(seen_bits[lane / 32u], 1u << (lane % 32u));
   barrier();
   uint before = 0u, all = 0u;
@@ -76,6 +112,6 @@ void main() {
     if (i == lane / 32u) bits &= (1u << (lane % 32u)) - 1u;
     if (i <= lane / 32u) before += uint(bitCount(bits));
   }
-  if (seen) drawn[group * kRainDrawnGroup + before] = result;
+  if (seen) put(4u * (group * kRainDrawnGroup + before), gl_GlobalInvocationID.x, result);
   if (lane == 0u) commands[group] = RainCommand(6u * all, 1u, 0u, 4u * group * kRainDrawnGroup, 0u);
 }

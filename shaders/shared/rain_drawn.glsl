@@ -1,4 +1,4 @@
-// What of a streak is handed to the rasteriser (written by streak.comp, read by streak.vert), and how much of each pixel it covers.
+// What of a streak is handed to the rasteriser (by streak.comp), and how much of each pixel it covers.
 //
 // A drop covers what is behind it for the time tau that it takes to pass: I = (1 - tau/T) I_background + (tau/T) E_drop, T the exposure (Garg &
 // Nayar 2007, "Vision and Rain", IJCV 75(1)). tau/T of a pixel is the integral over the exposure of the share of it that the drop's disk
@@ -12,16 +12,14 @@ RG_SHARED_BEGIN
 
 RG_CONST uint kRainDrawnGroup = 256u;  // slots a workgroup looks at, and one draw command draws
 
-struct RainDrawn {
-  vec4 ends_px;         // xy: where the streak begins, from the viewport's middle; zw: where it ends
-  vec4 depths_times;    // xy: its ends' depth along the view, m; zw: their times, -1 .. 1 over the whole exposure
-  vec4 colour;          // rgb: as the target holds it; a: how much more than in nature it covers (1: as much)
-  float radius_px_m;    // of the drop, px at 1 m
-  uint slot;
-  uint solid;           // rainSolidCode
-  uint spare0;
+// A corner of a streak's rectangle; four make a streak, the first and second pair at its sides. All corners read what is told of the streak from
+// this one on, which is right for the first, and that is the one which flat values are taken from.
+struct RainCorner {
+  vec4 place;  // xyz: in clip space; w, for tests, of the corners in turn: the drop's slot; how much longer the streak is drawn at either end, px;
+               // x and y of where it ends, px from the viewport's middle
+  vec4 told;   // of the corners in turn: streak.vert's streak_line, streak_depths, streak_ends, streak_colour
 };
-RG_SIZE(RainDrawn, 64)
+RG_SIZE(RainCorner, 32)
 
 // As glMultiDrawElementsIndirect reads it.
 struct RainCommand {
@@ -39,12 +37,14 @@ RG_CONST float kRainSoft_px = 0.35f;
 // The radius that a drop's disk of `radius_px` is drawn with.
 RG_FN float rainSoftened(float radius_px) { return sqrt(radius_px * radius_px + kRainSoft_px * kRainSoft_px); }
 
-// Half the width that a pixel has across a streak of the direction `along`. A box so wide holds, for every direction in whole numbers (p, q), p + q of
-// the lines on which the grid's pixels lie, so that what falls on them adds up to the same at every offset.
+// Half the width that a pixel has across a streak of the direction `along`. A box so wide holds, for every direction in whole numbers (p, q),
+// p + q of the lines on which the grid's pixels lie, so that what falls on them adds up to
+// the same at every offset.
 RG_FN float rainPixelHalf(vec2 along) { return 0.5f * (abs(along.x) + abs(along.y)); }
 
-// A streak's length with that of the drop itself: one seen end on is a dot. 2.5 radii: a drop that rests covers its middle wholly.
-RG_FN float rainLength(float way_px, float radius_px) { return sqrt(way_px * way_px + 6.25f * radius_px * radius_px); }
+// A streak's length with that of the drop itself (2.5 radii: a drop that rests covers its middle wholly) and of the pixels: one seen end on is a
+// dot. 2.5 px: so far apart lie two sides of rainShutter that make pixels add up to the same at every offset.
+RG_FN float rainLength(float way_px, float radius_px) { return sqrt(way_px * way_px + 6.25f * (radius_px * radius_px + 1.0f)); }
 
 // Share of a disk that lies left of `s` radii from its middle: 1/2 + (s sqrt(1 - s^2) + asin s) / pi, to 0.005.
 RG_FN float rainDiskLeftOf(float s) {
@@ -66,8 +66,10 @@ RG_FN float rainDwell(float radius_px, float times, float length_px, float pixel
   return 3.1415927f * radius_px * radius_px * times / (2.0f * length_px * 2.0f * pixel_half_px);
 }
 
-// The greatest tau/T, wherever pixels are small: of a drop whose whole way would be `way_px` long.
-RG_FN float rainDensest(float way_px, float radius_px) { return 2.56f * radius_px / max(rainLength(way_px, radius_px), 1.0e-9f); }
+// The greatest tau/T, were pixels small, of a drop whose way over the whole exposure is `way_px` long.
+RG_FN float rainDensest(float way_px, float radius_px) {
+  return 2.56f * radius_px / sqrt(max(way_px * way_px + 6.25f * radius_px * radius_px, 1.0e-18f));
+}
 
 // Flakes and stones near the eye have a shape of their own: flakes are octagons with lumps, stones disks, both soft at their rim. 0: a drop;
 // else 1 a flake, 2 a stone, and above the lowest two bits how its lumps lie.

@@ -28,9 +28,9 @@ struct RainLook {
   uint soft_depth;   // 1: read the host's depth
   uint environment;  // levels of the cube map, 0: none
   uint srgb;
+  uint colour_behind;  // 1: the host's colour can be read
   uint spare0;
   uint spare1;
-  uint spare2;
   RainLamp lamps[kRainLamps];
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace rg::test {
@@ -96,6 +97,27 @@ TEST_F(BadArguments, weatherThatIsNoNumberIsRefused) {
       [this](const rg_weather& w) { return updateWith([&](rg_sample& s) { s.weather = &w; }); });
 }
 
+TEST_F(BadArguments, weatherThatIsNotOfThisWorldIsRefusedByName) {
+  rg_weather good;
+  api.default_weather(&good);
+  const auto refused = [&](const std::string& field, double rg_weather::*value, double wrong) {
+    rg_weather bad = good;
+    bad.*value = wrong;
+    expectRefused(
+        field + " of " + std::to_string(wrong),
+        [&] { return updateWith([&](rg_sample& s) { s.weather = &bad; }); }, RG_ERROR_BAD_ARGUMENT, field);
+  };
+  for (const double rate : {-1e-9, -5.0, 300.1, 1e9})
+    refused("rg_weather.rain_mm_h", &rg_weather::rain_mm_h, rate);
+  for (int axis = 0; axis < 3; ++axis) {
+    rg_weather bad = good;
+    bad.wind_mps[axis] = axis == 1 ? -1e4 : 1e4;
+    expectRefused(
+        "a wind of 10 000 m/s", [&] { return updateWith([&](rg_sample& s) { s.weather = &bad; }); },
+        RG_ERROR_BAD_ARGUMENT, "rg_weather.wind_mps");
+  }
+}
+
 TEST_F(BadArguments, vehiclesThatAreNoNumbersAreRefused) {
   rg_vehicle good;
   api.default_vehicle(&good);
@@ -134,6 +156,23 @@ TEST_F(BadArguments, viewsThatAreNoNumbersAreRefused) {
   rg_view bad = good;
   bad.viewport_px[2] = -1;
   expectRefused("a viewport of negative width", [&] { return call(bad); });
+  const auto spoilt = [&](const std::string& what, const std::string& because,
+                          const std::function<void(rg_view&)>& spoil) {
+    rg_view view = good;
+    spoil(view);
+    expectRefused(
+        what, [&] { return call(view); }, RG_ERROR_BAD_ARGUMENT, because);
+  };
+  spoilt("a view volume of no width", "projection has no inverse", [](rg_view& v) { v.projection[0] = 0.0; });
+  spoilt("a view volume of nothing", "projection has no inverse",
+         [](rg_view& v) { std::fill(std::begin(v.projection), std::end(v.projection), 0.0); });
+  spoilt("an orthographic view", "orthographic", [](rg_view& v) {
+    v.projection[11] = 0.0;
+    v.projection[15] = 1.0;
+  });
+  spoilt("a view turned inside out", "mirrors", [](rg_view& v) {
+    for (int i = 0; i < 3; ++i) v.eye_from_world[4 * i] *= -1.0;
+  });
 }
 
 TEST_F(BadArguments, samplesOutOfOrderAreRefused) {

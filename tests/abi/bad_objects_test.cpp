@@ -37,12 +37,14 @@ TEST_F(BadObjects, volumesThatEncloseNothing) {
   expectVolumeRefused("both", "vertices or planes", [](Volume& v) { v.planes.assign(16, 0.0); });
   expectVolumeRefused("a count without vertices", "vertices", [](Volume& v) { v.vertices.clear(); });
   expectVolumeRefused("no vertices", "vertices", [](Volume& v) { v.info.vertex_count = 0; });
-  expectVolumeRefused("three vertices", "vertices", [](Volume& v) { v.info.vertex_count = 3; });
+  expectVolumeRefused("two vertices", "vertices", [](Volume& v) { v.info.vertex_count = 2; });
   expectVolumeRefused("a huge count", "vertices_m", [](Volume& v) { v.info.vertex_count = 0xFFFFFFFF; });
   expectVolumeRefused("NaN", "vertex 1", [](Volume& v) { v.vertices[4] = kNaN; });
   expectVolumeRefused("infinity", "vertex 0", [](Volume& v) { v.vertices[0] = kInfinity; });
-  expectVolumeRefused("flat", "plane", [](Volume& v) { v.vertices[11] = 0.0; });
-  expectVolumeRefused("all in one point", "plane", [](Volume& v) { v.vertices.assign(12, 1.0); });
+  expectVolumeRefused("on a line", "line", [](Volume& v) {
+    for (size_t i = 0; i < 12; ++i) v.vertices[i] = static_cast<double>(i / 3);
+  });
+  expectVolumeRefused("all in one point", "line", [](Volume& v) { v.vertices.assign(12, 1.0); });
   expectVolumeRefused("a name without end", "name", [](Volume& v) {
     static const std::string name(100, 'x');
     v.info.name = name.c_str();

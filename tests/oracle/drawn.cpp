@@ -13,12 +13,14 @@ namespace {
 constexpr int kWidth_px = 128, kHeight_px = 72;  // where segments end does not depend on it
 // What is fed back of each corner of a streak's two triangles.
 struct Corner {
-  glm::vec4 ends_px;
-  glm::vec2 depths_m;
-  uint32_t slot;
+  glm::vec4 line;    // streak.vert's streak_line
+  glm::vec4 depths;  // and streak_depths
+  float extra;
 };
-constexpr std::array<const char*, 3> kFedBack{"segment_px", "segment_depth_m", "segment_slot"};
+constexpr std::array<const char*, 3> kFedBack{"streak_line", "streak_depths", "corner_extra"};
 constexpr size_t kCorners = 6;
+// Where among them the streak's corners are.
+constexpr std::array<size_t, 4> kPlaces{2, 0, 4, 1};
 
 // GL's functions take no pointer of ours; these are the draw call's that is under way.
 const GladGLContext* true_gl = nullptr;
@@ -73,14 +75,12 @@ struct DrawnStreaks::Gpu {
   Gpu(const Gpu&) = delete;
   Gpu& operator=(const Gpu&) = delete;
 
-  // What was fed back, one corner for each streak.
   std::vector<Corner> fedBack() const {
-    GLuint count = 0;
-    context.gl.GetQueryObjectuiv(triangles, GL_QUERY_RESULT, &count);
-    std::vector<Corner> all(size_t{count} * 3), first;
+    GLuint triangles_drawn = 0;
+    context.gl.GetQueryObjectuiv(triangles, GL_QUERY_RESULT, &triangles_drawn);
+    std::vector<Corner> all(size_t{triangles_drawn} * 3);
     if (!all.empty()) corners.read(0, all.data(), all.size() * sizeof(Corner));
-    for (size_t i = 0; i < all.size(); i += kCorners) first.push_back(all[i]);
-    return first;
+    return all;
   }
 
   rg::test::GlContext context;
@@ -117,9 +117,15 @@ std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::View
 
   std::vector<Segment> segments(slot_end);
   if (!read_back_) return segments;
-  for (const Corner& c : g.fedBack()) {
-    segments.at(c.slot) = {true, placeOf(view, {c.ends_px.x, c.ends_px.y}, c.depths_m.x),
-                           placeOf(view, {c.ends_px.z, c.ends_px.w}, c.depths_m.y)};
+  const std::vector<Corner> corners = g.fedBack();
+  for (size_t i = 0; i < corners.size(); i += kCorners) {
+    const Corner& c = corners[i + kPlaces[0]];
+    std::array<float, 4> extra{};
+    for (size_t k = 0; k < 4; ++k) extra[k] = corners[i + kPlaces[k]].extra;
+    const glm::vec2 begin = glm::vec2(c.line.x, c.line.y) - 0.5f * glm::vec2(kWidth_px, kHeight_px) +
+                            extra[1] * glm::vec2(c.line.z, c.line.w);
+    segments.at(static_cast<size_t>(extra[0])) = {true, placeOf(view, begin, 1.0f / c.depths.y),
+                                                  placeOf(view, {extra[2], extra[3]}, 1.0f / c.depths.z)};
   }
   return segments;
 }

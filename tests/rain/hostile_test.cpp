@@ -30,6 +30,14 @@ const std::vector<Nonsense> kNonsense = {
     {"frustumNotANumber", [](Scene& s) { s.views[0].clipFromEye[0][0] = kNan; }},
     {"frustumNull", [](Scene& s) { s.views[0].clipFromEye = glm::dmat4(0.0); }},
     {"frustumOfNoWidth", [](Scene& s) { s.views[0].clipFromEye[0][0] = 1e300; }},
+    {"frustumReversed", [](Scene& s) { s.views[0].clipFromEye[2] *= -1.0; }},
+    {"frustumTurnedOver",
+     [](Scene& s) {
+       s.views[0].clipFromEye[0][0] *= -1.0;
+       s.views[0].clipFromEye[1][1] *= -1.0;
+     }},
+    {"frustumOfAlmostAllAround",
+     [](Scene& s) { s.views[0].clipFromEye[0][0] = s.views[0].clipFromEye[1][1] = 1e-6; }},
     {"frustumOrthographic", [](Scene& s) { s.views[0].clipFromEye = glm::dmat4(1.0); }},
     {"eyeVelocityNotANumber", [](Scene& s) { s.views[0].eye_velocity_mps.y = kNan; }},
     {"eyeVelocityAbsurd", [](Scene& s) { s.views[0].eye_velocity_mps = dvec3(1e30); }},
@@ -37,12 +45,18 @@ const std::vector<Nonsense> kNonsense = {
     {"exposureOfAYear", [](Scene& s) { s.views[0].exposure_s = 3e7; }},
     {"windNotANumber", [](Scene& s) { s.weather.wind_mps.x = kNan; }},
     {"windInfinite", [](Scene& s) { s.weather.wind_mps.y = -kInfinite; }},
+    {"windOf10000mps",
+     [](Scene& s) {
+       s.weather.wind_mps = {-1e4, 1e4, 1e4};
+     },
+     1000},  // till what it blew up through the canopy is down again
     {"windAbsurd",
      [](Scene& s) {
        s.weather.wind_mps = {1e12, 0, 0};
      }},
     {"rainNotANumber", [](Scene& s) { s.weather.rain_mm_h = kNan; }},
     {"rainNegative", [](Scene& s) { s.weather.rain_mm_h = -5; }},
+    {"rainOf1e9mmh", [](Scene& s) { s.weather.rain_mm_h = 1e9; }, 1000},
     {"rainAbsurd", [](Scene& s) { s.weather.rain_mm_h = 1e30; }, 1000},
     {"carNotANumber", [](Scene& s) { s.vehicles[0].pose.position_m.x = kNan; }},
     {"carVelocityInfinite", [](Scene& s) { s.vehicles[0].pose.velocity_mps.x = kInfinite; }},
@@ -101,7 +115,7 @@ TEST(Hostile, fieldOfAbsurdSizeOrVisibilityStaysWithinItsRange) {
 TEST(Hostile, volumeOfNoSizeIsRefusedAndChangesNothing) {
   Field field, other;
   EXPECT_NE(setBox(field, 1, {0, 0, 1}, {0, 0, 1}), "");
-  EXPECT_NE(setBox(field, 2, {0, 0, 1}, {5, 5, 1}), "");
+  EXPECT_NE(setBox(field, 2, {0, 0, 1}, {5, 0, 1}), "");
   EXPECT_NE(setBox(field, 3, {kNan, 0, 1}, {5, 5, 2}), "");
   EXPECT_NE(setBox(field, 4, {-kInfinite, 0, 1}, {5, 5, 2}), "");
   EXPECT_FALSE(field.removeVolume(1));

@@ -74,7 +74,9 @@ INSTANTIATE_TEST_SUITE_P(Motions, Density,
                                            Motion{"drivingAt5", 5, 100 * kKmh, 0},
                                            Motion{"drivingAt50", 50, 100 * kKmh, 0},
                                            Motion{"turningAt5", 5, 0, 1.0472},
-                                           Motion{"turningAt50", 50, 0, 1.0472}),
+                                           Motion{"turningAt50", 50, 0, 1.0472},
+                                           Motion{"at250kmhIn25", 25, 250 * kKmh, 0},
+                                           Motion{"swingingAt50", 50, 20, 1.0472, true}),
                          nameOf);
 
 // ---- chance ----
@@ -96,11 +98,17 @@ int cellOf(const ViewState& view, const dvec3& p, double reach_m) {
   return quarter(0.5 * (a + 1.0)) * 16 + quarter(0.5 * (b + 1.0)) * 4 + quarter(r * r * r);
 }
 
+class Chance : public ::testing::TestWithParam<Motion> {};
+
 // Counts are Poisson's with the law's mean in every cell of every picture: sum (n - m)^2 / m has mean K and
 // variance K (2 + 1 / m), too few unlike ones being as wrong as too many; and no cell is preferred over all
-// pictures: chi-square with 63 degrees of freedom.
-TEST(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
-  constexpr int kPictures = 150, kTicksAPicture = 36, kCells = 64;
+// pictures: chi-square with 63 degrees of freedom. Each picture is of other drops than the last: the view
+// cuts to another place, or has gone on for 8 m (the rarest are seen to 7.4).
+TEST_P(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
+  const Motion motion = GetParam();
+  const bool cuts = motion.speed_mps < 20.0;
+  const int ticks_a_picture = cuts ? 12 : static_cast<int>(std::ceil(8.3 / motion.speed_mps / kTickSeconds));
+  constexpr int kPictures = 100, kCells = 64;
   constexpr double kSigmas = 4.0;  // 16 statistics: one in a thousand seeds fails
   Field field({.capacity = 200000, .seed = 5});
   Scene scene = sceneWithView(50);
@@ -117,9 +125,10 @@ TEST(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
   Upload upload;
   std::vector<LiveDrop> drops;
   for (int n = 0; n < kPictures; ++n) {
-    for (int i = 0; i < kTicksAPicture;
-         ++i, ++scene.index) {  // 8.3 m, the rarest are seen to 7.4: other drops than in the last picture
-      place(scene, 100 * kKmh, 0.0);
+    for (int i = 0; i < ticks_a_picture; ++i, ++scene.index) {
+      scene.views[0].discontinuity = cuts && i == 0;
+      place(scene, motion.speed_mps, motion.headingAt(static_cast<double>(scene.index) * kTickSeconds),
+            cuts ? 50.0 * n : 0.0);
       field.tick(scene.tick());
     }
     liveDrops(field, upload, drops);
@@ -147,6 +156,13 @@ TEST(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
     EXPECT_NEAR(chi_square, kCells - 1.0, kSigmas * std::sqrt(2.0 * (kCells - 1.0))) << "group " << g;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Motions, Chance,
+                         ::testing::Values(Motion{"standing", 50, 0, 0}, Motion{"driving", 50, 100 * kKmh, 0},
+                                           Motion{"at250kmh", 50, 250 * kKmh, 0},
+                                           Motion{"turning", 50, 0, 1.0472},
+                                           Motion{"swinging", 50, 10, 1.0472, true}),
+                         nameOf);
 
 // ---- flux ----
 
@@ -325,6 +341,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, Appearance,
                                            Motion{"turning", 50, 0, 1.0472},
                                            Motion{"swinging", 50, 0, 1.0472, true},
                                            Motion{"drivingAndSwinging", 50, 100 * kKmh, 1.0472, true},
+                                           Motion{"at250kmh", 50, 250 * kKmh, 0},
                                            Motion{"inCrosswind", 50, 0, 0, false, 20},
                                            Motion{"inGusts", 50, 10, 0, false, 10, 8}),
                          nameOf);

@@ -7,7 +7,7 @@
 
 #include "measure.h"
 #include "rain/field.h"
-#include "rain/standing.h"
+#include "standing_drops.h"
 
 namespace rg::rain::test {
 namespace {
@@ -57,39 +57,6 @@ struct Trip {
   double speedAt(double t) const { return std::max(0.0, speed_mps - brake_mps2 * std::max(0.0, t - 1.0)); }
 };
 std::ostream& operator<<(std::ostream& out, const Trip& t) { return out << t.name; }
-
-// All drops that the standing field holds within the view's volume, sheltered or not.
-std::vector<LiveDrop> standingDrops(const Picture& picture, const Cone& cone, const InTheAir& air,
-                                    uint32_t one_of) {
-  std::vector<LiveDrop> found;
-  for (uint32_t kind = 0; kind < kBouncedClass; ++kind) {
-    const ClassLattice& lattice = classLattices()[kind];
-    const double density = air.density_m3[kind];
-    const glm::ivec3 eye(glm::floor((cone.eye_m - picture.classes[kind].origin_m) / lattice.cell_m));
-    const int far = static_cast<int>(kReachPerDiameter * 1e-3 * lattice.reach_mm / lattice.cell_m) + 2;
-    for (int x = -far; x <= far; ++x) {
-      for (int y = -far; y <= far; ++y) {
-        for (int z = -far; z <= far; ++z) {
-          const CellKey key{eye.x + x, eye.y + y, eye.z + z, kind};
-          Candidates candidates(kSeed, key, lattice.cell_m3);
-          for (const Candidate* c = &candidates.next(); c->threshold_m3 < density; c = &candidates.next()) {
-            if (c->id % one_of != 0) continue;
-            LiveDrop d;
-            d.key = {kind, key.x, key.y, key.z, c->id};
-            d.kind = kind;
-            d.diameter_m = 1e-3 * drawnDiameter_mm(lattice.drops.hydrometeor, air.quantile(kind, c->size));
-            const dvec3 fraction = (dvec3(c->fraction_x, c->fraction_y, c->fraction_z) + 0.5) / 65536.0;
-            d.place_m =
-                picture.classes[kind].origin_m + (dvec3(key.x, key.y, key.z) + fraction) * lattice.cell_m;
-            d.velocity_mps = picture.classes[kind].velocity_mps;
-            if (inVolume(cone, d.place_m, d.reach_m())) found.push_back(d);
-          }
-        }
-      }
-    }
-  }
-  return found;
-}
 
 // Whether the straight way from a to b meets the box grown by `more_m`.
 bool meetsBox(const Roof& roof, const dvec3& a, const dvec3& b, double more_m) {
@@ -160,7 +127,7 @@ TEST_P(Oracle, findsTheSameLiveDrops) {
     std::set<DropKey> alive;
     for (const LiveDrop& d : live) alive.insert(d.key);
     uint64_t lost = 0, ghosts = 0;
-    for (const LiveDrop& d : standingDrops(upload.picture, cone, air, trip.one_of)) {
+    for (const LiveDrop& d : standingDrops(kSeed, upload.picture, cone, air, trip.one_of)) {
       ++compared;
       // A stone that is down has bounced.
       const double above_m = d.place_m.z - 0.5 * d.diameter_m;

@@ -223,7 +223,7 @@ typedef struct rg_volume_info {
   uint32_t vehicle;         /* 0: coordinates are world's; else that vehicle's frame, and it moves with it */
   const char* name;         /* for messages; null allowed; at most 63 bytes are kept */
   const double* vertices_m; /* xyz triples, or null */
-  uint32_t vertex_count;    /* 4 .. 256, not all in a plane */
+  uint32_t vertex_count;    /* 3 .. 256, not all on a line; in a plane they are a sheet, made 1 mm thick */
   uint32_t plane_count;     /* 4 .. 64 */
   const double* planes;     /* nx, ny, nz, d: inside where n . p <= d; unit normals; or null. Must enclose a
                                finite volume */

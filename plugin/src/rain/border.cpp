@@ -10,6 +10,8 @@ namespace {
 
 using glm::dvec3;
 
+constexpr double kReferenceReach = 1.25 * 1663.0;  // per diameter: of the standing lattice's cells
+constexpr double kCut_m = 2.0;  // an eye that is so far from where it was to be has been put there
 constexpr double kLeastTurn_radps = 1.0472;  // 60 deg/s: a turn of the view that needs no warning
 
 }  // namespace
@@ -20,20 +22,30 @@ Border::Border(Cells& cells) : cells_(cells) {
   released_.reserve(1u << 16);
 }
 
-void Border::clear() {
+uint32_t Border::levelFor(double reach_per_diameter) {
+  uint32_t level = 0;
+  while (reach_per_diameter > 2.0 * kReferenceReach * static_cast<double>(1u << level)) ++level;
+  return level;
+}
+
+void Border::clear(uint32_t level) {
+  level_ = level;
   views_.clear();
   cells_of_.fill(0);
+}
+
+double Border::cell_m(uint32_t kind) const {
+  return classLattices()[kind].cell_m * static_cast<double>(1u << level_);
 }
 
 void Border::shift(const dvec3& shift_m) {
   for (auto& view : views_) view->eye_m -= shift_m;
 }
 
-void Border::follow(std::span<const ViewState> all_told, const ClassFrames& frames, double reach_per_diameter,
-                    const std::bitset<kClasses>& followed) {
+void Border::follow(const Sought& sought, const ClassFrames& frames) {
   entered_.clear();
   for (auto& view : views_) view->told = false;
-  for (const ViewState& told : all_told) {
+  for (const ViewState& told : sought.views) {
     auto found = std::find_if(views_.begin(), views_.end(), [&](const auto& v) { return v->id == told.id; });
     if (found == views_.end()) {
       views_.push_back(std::make_unique<FollowedView>());
@@ -41,7 +53,7 @@ void Border::follow(std::span<const ViewState> all_told, const ClassFrames& fram
       (*found)->id = told.id;
     }
     (*found)->told = true;
-    followView(**found, told, frames, reach_per_diameter, followed);
+    followView(**found, told, sought, frames);
   }
   for (auto& view : views_) {
     if (view->told) continue;
@@ -52,15 +64,15 @@ void Border::follow(std::span<const ViewState> all_told, const ClassFrames& fram
   releaseCells();
 }
 
-void Border::followView(FollowedView& view, const ViewState& told, const ClassFrames& frames,
-                        double reach_per_diameter, const std::bitset<kClasses>& followed) {
+void Border::followView(FollowedView& view, const ViewState& told, const Sought& sought,
+                        const ClassFrames& frames) {
   const Cone cone = coneOf(told);
   const glm::dquat worldFromEye = glm::quat_cast(glm::transpose(glm::dmat3(told.eyeFromWorld)));
   const dvec3 velocity = eyeVelocityOf(told);
   double turn = 0.0, surprise_m = 0.0;
-  if (view.moved && !told.discontinuity && cone.valid) {
-    const dvec3 really = (cone.eye_m - view.eye_m) / kTickSeconds;
-    surprise_m = glm::distance(really, velocity) * kTickSeconds;
+  const double off_m = glm::distance(cone.eye_m - view.eye_m, velocity * kTickSeconds);
+  if (view.moved && !told.discontinuity && cone.valid && off_m < kCut_m) {
+    surprise_m = off_m;
     turn = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(worldFromEye, view.worldFromEye)))) / kTickSeconds;
   }
   view.moved = cone.valid;
@@ -71,53 +83,51 @@ void Border::followView(FollowedView& view, const ViewState& told, const ClassFr
   view.current = after;
   view.streak_m = 0.0;
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
-    if (!followed.test(kind)) {
-      view.rows[after][kind].clear();
-      replaceRows(view.rows[before][kind], view.rows[after][kind], kind);
-      view.rows[before][kind].clear();
-      continue;
-    }
-    const ClassLattice& lattice = classLattices()[kind];
+    RowSet &was = view.rows[before][kind], &is = view.rows[after][kind];
     const dvec3 past = frames.velocity(kind) - velocity;
     Margin margin;
     margin.ahead_m = past * (1.25 * kTickSeconds);  // a quarter to spare
     margin.streak_m = past * (0.5 * exposureOf(told));
-    view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
-    const double reach = reach_per_diameter * 1e-3 * lattice.reach_mm;
-    margin.sides_m = 0.02 + lattice.swing_m + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach +
-                     1.3 * surprise_m;
-    margin.reach_m = reach + lattice.swing_m + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
-    findRows(cone, margin, (cone.eye_m - frames.origin(kind)) / lattice.cell_m, lattice.cell_m,
-             view.rows[after][kind]);
-    replaceRows(view.rows[before][kind], view.rows[after][kind], kind);
-    view.rows[before][kind].clear();
+    if (sought.classes[kind]) view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
+    const double reach = sought.reach_per_diameter * 1e-3 * classLattices()[kind].reach_mm,
+                 swing_m = classLattices()[kind].swing_m;
+    margin.sides_m =
+        0.02 + swing_m + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
+    margin.reach_m = reach + swing_m + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
+    if (sought.classes[kind])
+      findRows(cone, margin, (cone.eye_m - frames.origin(kind)) / cell_m(kind), cell_m(kind), is);
+    replaceRows(was, is, kind);
+    was.clear();
   }
 }
 
 // Counts the cells that `after` has and `before` had not as entered, and the other way round.
 void Border::replaceRows(const RowSet& before, const RowSet& after, uint32_t kind) {
   for (int32_t y = after.y0; y < after.y0 + after.ny; ++y) {
-    for (int32_t z = after.z0; z < after.z0 + after.nz; ++z) {
-      const RowSpan was = before.at(y, z), is = after.at(y, z);
-      if (was.first == was.last) {
-        enter(kind, y, z, is.first, is.last);
-      } else {
-        enter(kind, y, z, is.first, std::min(is.last, was.first));
-        enter(kind, y, z, std::max(is.first, was.last), is.last);
-      }
+    const RowSpan *is = after.line(y), *was = before.line(y);
+    for (int32_t z = after.z0; z < after.z0 + after.nz; ++z, ++is) {
+      const RowSpan then = was != nullptr && before.hasZ(z) ? was[z - before.z0] : RowSpan{};
+      if (then != *is) replaceRow(then, *is, kind, y, z);
     }
   }
   for (int32_t y = before.y0; y < before.y0 + before.ny; ++y) {
-    for (int32_t z = before.z0; z < before.z0 + before.nz; ++z) {
-      const RowSpan was = before.at(y, z), is = after.at(y, z);
-      if (is.first == is.last) {
-        leave(kind, y, z, was.first, was.last);
-      } else {
-        leave(kind, y, z, was.first, std::min(was.last, is.first));
-        leave(kind, y, z, std::max(was.first, is.last), was.last);
-      }
-    }
+    const RowSpan* was = before.line(y);
+    const bool known = after.line(y) != nullptr;
+    for (int32_t z = before.z0; z < before.z0 + before.nz; ++z, ++was)
+      if (!known || !after.hasZ(z)) replaceRow(*was, RowSpan{}, kind, y, z);
   }
+}
+
+void Border::replaceRow(RowSpan was, RowSpan is, uint32_t kind, int32_t y, int32_t z) {
+  if (was.first == was.last || is.first == is.last || is.last <= was.first || was.last <= is.first) {
+    enter(kind, y, z, is.first, is.last);
+    leave(kind, y, z, was.first, was.last);
+    return;
+  }
+  enter(kind, y, z, is.first, was.first);
+  enter(kind, y, z, was.last, is.last);
+  leave(kind, y, z, was.first, is.first);
+  leave(kind, y, z, is.last, was.last);
 }
 
 void Border::enter(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last) {

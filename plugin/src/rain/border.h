@@ -29,14 +29,27 @@ struct FollowedView {
   std::array<std::array<RowSet, kClasses>, 2> rows;
 };
 
+// What a tick's views look for.
+struct Sought {
+  std::span<const ViewState> views;
+  double reach_per_diameter = 1.0;  // drops are seen as far as this times their diameter
+  std::bitset<kClasses> classes;    // that may have drops: the others have no cells
+};
+
+// The border's cells are blocks of 2^level cells of the standing lattice along each axis, so that there are
+// no more of them however far drops are seen: six to twelve along a class's reach, six as a rule.
 class Border {
  public:
   explicit Border(Cells& cells);
 
-  // Takes the views to a tick; drops are seen as far as `reach_per_diameter` times their diameter. Views that
-  // are not told any more look into nothing, and none looks for classes that are not in `followed`.
-  void follow(std::span<const ViewState> told, const ClassFrames& frames, double reach_per_diameter,
-              const std::bitset<kClasses>& followed);
+  static uint32_t levelFor(double reach_per_diameter);
+  uint32_t level() const { return level_; }
+  // Begins anew, no view having looked anywhere; the cells are cleared by their owner.
+  void clear(uint32_t level);
+  double cell_m(uint32_t kind) const;
+
+  // Takes the views to a tick. Views that are not told any more look into nothing.
+  void follow(const Sought& sought, const ClassFrames& frames);
 
   // Cells that came into sight with the last follow(), each once.
   const std::vector<uint32_t>& entered() const { return entered_; }
@@ -45,18 +58,18 @@ class Border {
   uint32_t cellsOf(uint32_t kind) const { return cells_of_[kind]; }  // in sight
 
   std::span<const std::unique_ptr<FollowedView>> views() const { return views_; }
-  void clear();  // no view has looked anywhere; the cells are cleared by their owner
   void shift(const glm::dvec3& shift_m);
 
  private:
-  void followView(FollowedView& view, const ViewState& told, const ClassFrames& frames,
-                  double reach_per_diameter, const std::bitset<kClasses>& followed);
+  void followView(FollowedView& view, const ViewState& told, const Sought& sought, const ClassFrames& frames);
   void replaceRows(const RowSet& before, const RowSet& after, uint32_t kind);
+  void replaceRow(RowSpan was, RowSpan is, uint32_t kind, int32_t y, int32_t z);
   void enter(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last);
   void leave(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last);
   void releaseCells();
 
   Cells& cells_;
+  uint32_t level_ = 0;
   std::vector<std::unique_ptr<FollowedView>> views_;
   std::array<uint32_t, kClasses> cells_of_{};
   std::vector<uint32_t> entered_, left_;

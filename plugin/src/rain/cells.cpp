@@ -8,7 +8,7 @@ constexpr std::size_t kFirstTable = 1u << 15;  // of 16 384 cells: two views' wo
 }
 
 Cells::Cells() {
-  table_.assign(kFirstTable, kNone);
+  table_.assign(kFirstTable, Entry{});
   pool_.reserve(kFirstTable / 2);
   free_.reserve(kFirstTable / 2);
 }
@@ -21,17 +21,21 @@ uint32_t Cells::hashOf(const CellKey& key) {
   return static_cast<uint32_t>(zk * 0xd6e8feb86659fd93u >> 32);
 }
 
-uint32_t Cells::find(const CellKey& key) const {
+uint32_t Cells::find(const CellKey& key, uint32_t hash) const {
   const uint32_t mask = static_cast<uint32_t>(table_.size()) - 1u;
-  uint32_t place = hashOf(key) & mask;
-  while (table_[place] != kNone && !(pool_[table_[place]].key == key)) place = (place + 1u) & mask;
+  uint32_t place = hash & mask;
+  while (table_[place].index != kNone &&
+         !(table_[place].hash == hash && pool_[table_[place].index].key == key))
+    place = (place + 1u) & mask;
   return place;
 }
 
 void Cells::grow() {
-  table_.assign(table_.size() * 2, kNone);
+  table_.assign(table_.size() * 2, Entry{});
   for (uint32_t i = 0; i < poolSize(); ++i) {
-    if (pool_[i].views > 0) table_[find(pool_[i].key)] = i;
+    if (pool_[i].views == 0) continue;
+    const uint32_t hash = hashOf(pool_[i].key);
+    table_[find(pool_[i].key, hash)] = {hash, i};
   }
   pool_.reserve(table_.size() / 2);
   free_.reserve(table_.size() / 2);
@@ -39,47 +43,49 @@ void Cells::grow() {
 
 uint32_t Cells::acquire(const CellKey& key, bool& fresh) {
   if ((std::size_t{live_} + 1) * 2 > table_.size()) grow();
-  const uint32_t place = find(key);
-  fresh = table_[place] == kNone;
+  const uint32_t hash = hashOf(key);
+  Entry& entry = table_[find(key, hash)];
+  fresh = entry.index == kNone;
   if (fresh) {
     if (free_.empty()) {
       pool_.emplace_back();
       free_.push_back(poolSize() - 1);
     }
-    table_[place] = free_.back();
+    entry = {hash, free_.back()};
     free_.pop_back();
-    pool_[table_[place]] = Cell{key, kNone, 0, false};
+    pool_[entry.index] = Cell{key, kNone, 0, false};
     ++live_;
   }
-  ++pool_[table_[place]].views;
-  return table_[place];
+  ++pool_[entry.index].views;
+  return entry.index;
 }
 
 uint32_t Cells::release(const CellKey& key) {
-  const uint32_t index = table_[find(key)];
-  if (index == kNone) return kNone;
-  return --pool_[index].views == 0 ? index : kNone;
+  const uint32_t place = find(key, hashOf(key));
+  const uint32_t index = table_[place].index;
+  if (index == kNone || --pool_[index].views > 0) return kNone;
+  takeOut(place);
+  --live_;
+  return index;
 }
 
-void Cells::free(uint32_t index) {
+// Later entries of the same run move up, so that no search ends early (Knuth, The Art of Computer
+// Programming 3, 6.4 algorithm R).
+void Cells::takeOut(uint32_t hole) {
   const uint32_t mask = static_cast<uint32_t>(table_.size()) - 1u;
-  uint32_t hole = find(pool_[index].key);
-  // Later entries of the same run move up, so that no search ends early (Knuth, The Art of Computer
-  // Programming 3, 6.4 algorithm R).
-  for (uint32_t next = (hole + 1u) & mask; table_[next] != kNone; next = (next + 1u) & mask) {
-    const uint32_t home = hashOf(pool_[table_[next]].key) & mask;
+  for (uint32_t next = (hole + 1u) & mask; table_[next].index != kNone; next = (next + 1u) & mask) {
+    const uint32_t home = table_[next].hash & mask;
     if (((next - home) & mask) < ((next - hole) & mask)) continue;
     table_[hole] = table_[next];
     hole = next;
   }
-  table_[hole] = kNone;
-  pool_[index].views = 0;
-  free_.push_back(index);
-  --live_;
+  table_[hole] = {};
 }
 
+void Cells::free(uint32_t index) { free_.push_back(index); }
+
 void Cells::clear() {
-  table_.assign(table_.size(), kNone);
+  table_.assign(table_.size(), Entry{});
   pool_.clear();
   free_.clear();
   live_ = 0;

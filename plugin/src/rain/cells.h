@@ -16,7 +16,7 @@ struct CellKey {
 
 struct Cell {
   CellKey key;
-  uint32_t first_drop = kNone;
+  uint32_t bunch = kNone;    // of its drops, the first
   uint16_t views = 0;        // that look into it; 0: free
   bool near_volume = false;  // some drop of it was tested against a volume
 };
@@ -28,8 +28,8 @@ class Cells {
   Cells();
   // Counts one more view for the cell and returns its index; `fresh` tells that it was not there.
   uint32_t acquire(const CellKey& key, bool& fresh);
-  // Counts one view less and returns the index of the cell when that was the last (then free() it), else
-  // kNone.
+  // Counts one view less. When that was the last, the cell's index is returned (else kNone): it is not found
+  // any more, and stays as it is until it is freed.
   uint32_t release(const CellKey& key);
   void free(uint32_t index);
   void clear();
@@ -40,14 +40,20 @@ class Cells {
   uint32_t live() const { return live_; }
 
  private:
+  // With the hash beside the index a search hardly ever looks at a cell that is not the one.
+  struct Entry {
+    uint32_t hash = 0;
+    uint32_t index = kNone;  // into the pool; kNone: empty
+  };
   static uint32_t hashOf(const CellKey& key);
-  uint32_t find(
-      const CellKey& key) const;  // place in the table: of the key, or the empty one where it would be
+  // Place in the table: of the key, or the empty one where it would be.
+  uint32_t find(const CellKey& key, uint32_t hash) const;
   void grow();
+  void takeOut(uint32_t place);
 
   std::vector<Cell> pool_;
   std::vector<uint32_t> free_;
-  std::vector<uint32_t> table_;  // index into the pool, or kNone; open addressing, at most half full
+  std::vector<Entry> table_;  // open addressing, at most half full
   uint32_t live_ = 0;
 };
 

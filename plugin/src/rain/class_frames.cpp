@@ -31,7 +31,7 @@ void ClassFrames::start(const dvec3& origin_m, const dvec3& wind_mps) {
   origin_m_ = origin_m;
   moved_m_.fill(dvec3(0.0));
   wind_.start(0.0, dvec3(0.0), wind_mps);
-  past_.count = 0;
+  forgetPaths();
 }
 
 void ClassFrames::jump(double time_s) {
@@ -39,17 +39,17 @@ void ClassFrames::jump(double time_s) {
   const dvec3 carried = wind_.carried_m() + wind * (time_s - time_s_);
   time_s_ = time_s;
   wind_.start(time_s, carried, wind);
-  past_.count = 0;
+  forgetPaths();
 }
 
 void ClassFrames::resume(const dvec3& wind_mps) {
   wind_.start(time_s_, wind_.carried_m(), wind_mps);
-  past_.count = 0;
+  forgetPaths();
 }
 
 bool ClassFrames::advance(double time_s, const dvec3& wind_mps) {
   time_s_ = time_s;
-  past_.count = 0;
+  forgetPaths();
   return wind_.advance(time_s, wind_mps);
 }
 
@@ -58,7 +58,7 @@ bool ClassFrames::setProfile(const WindProfile& profile) {
   for (uint32_t kind = 0; kind < kClasses; ++kind)
     moved_m_[kind] += (profile_.drop_share[kind] - profile.drop_share[kind]) * wind_.carried_m();
   profile_ = profile;
-  past_.count = 0;
+  forgetPaths();
   return true;
 }
 
@@ -71,19 +71,23 @@ dvec3 ClassFrames::origin(uint32_t kind) const {
          ownVelocity(kind) * time_s_;
 }
 
-const ClassPath& ClassFrames::path(uint32_t kind) {
-  if (past_.count > 0 && path_of_ == kind) return path_;
-  if (past_.count == 0) wind_.trace(past_);
-  findPath(kind);
-  path_of_ = kind;
-  return path_;
+void ClassFrames::forgetPaths() {
+  past_.count = 0;
+  for (ClassPath& path : paths_) path.count = 0;
 }
 
-void ClassFrames::findPath(uint32_t kind) {
+const ClassPath& ClassFrames::path(uint32_t kind) {
+  ClassPath& path = paths_[kind];
+  if (past_.count == 0) wind_.trace(past_);
+  if (path.count == 0) findPath(kind, path);
+  return path;
+}
+
+void ClassFrames::findPath(uint32_t kind, ClassPath& path) const {
   const double share = profile_.drop_share[kind];
   const double longest_s = Shelter::kPath_m / std::max(glm::length(velocity(kind)), 0.1);
-  path_.pieces[0] = {0.0, longest_s, dvec3(0.0), velocity(kind)};
-  path_.count = 1;
+  path.pieces[0] = {0.0, longest_s, dvec3(0.0), velocity(kind)};
+  path.count = 1;
   double until = 0.0;
   dvec3 to_m(0.0);
   for (uint32_t i = 0; i < past_.count && until > -longest_s; ++i) {
@@ -91,7 +95,7 @@ void ClassFrames::findPath(uint32_t kind) {
     const double begin = i + 1 == past_.count ? -longest_s : std::max(then.from_s - time_s_, -longest_s);
     const dvec3 v = share * then.wind_mps + ownVelocity(kind);
     to_m += v * (begin - until);
-    path_.pieces[path_.count++] = {begin, until, to_m, v};
+    path.pieces[path.count++] = {begin, until, to_m, v};
     until = begin;
   }
 }

@@ -34,11 +34,12 @@ class ClassFrames {
   glm::dvec3 origin(uint32_t kind) const;
   glm::dvec3 velocity(uint32_t kind) const;
   // The way of a class's drops: to come at today's wind, and back along the winds that were. Valid until the
-  // next call.
+  // frames go on.
   const ClassPath& path(uint32_t kind);
 
  private:
-  void findPath(uint32_t kind);
+  void findPath(uint32_t kind, ClassPath& path) const;
+  void forgetPaths();
 
   WindPath wind_;  // of the stated wind; a class has its share
   WindProfile profile_;
@@ -46,8 +47,7 @@ class ClassFrames {
   glm::dvec3 origin_m_{0.0};                    // of all, without wind and fall
   std::array<glm::dvec3, kClasses> moved_m_{};  // by changes of the profile
   WindPath::Past past_;                         // count 0: not asked for in this tick
-  ClassPath path_;
-  uint32_t path_of_ = kClasses;  // the class it is of; kClasses: none
+  std::array<ClassPath, kClasses> paths_;       // count 0: as well
 };
 
 }  // namespace rg::rain

@@ -56,40 +56,44 @@ void SlotPool::give(uint32_t slot) {
 }
 
 Drops::Drops(uint32_t capacity)
-    : slots_(capacity),
-      records_(capacity),
-      in_cell_(capacity),
-      on_day_(capacity),
-      cell_(capacity, kNone),
-      bucket_(capacity, kNone),
-      heads_(kBuckets, kNone),
-      is_changed_(capacity, false) {
+    : slots_(capacity), records_(capacity), places_(capacity), heads_(kBuckets, kNone) {
+  constexpr size_t kCells = 1u << 14;  // two views' worth: more make the bunches grow
+  bunches_.reserve(capacity / Bunch::kMost + kCells);
+  free_bunches_.reserve(bunches_.capacity());
   changed_.reserve(capacity);
 }
 
-void Drops::link(std::vector<Link>& links, uint32_t& head, uint32_t slot) {
-  links[slot] = {head, kNone};
-  if (head != kNone) links[head].before = slot;
-  head = slot;
+uint32_t Drops::newBunch(uint32_t next) {
+  if (free_bunches_.empty()) {
+    bunches_.emplace_back();
+    free_bunches_.push_back(static_cast<uint32_t>(bunches_.size() - 1));
+  }
+  const uint32_t bunch = free_bunches_.back();
+  free_bunches_.pop_back();
+  bunches_[bunch].count = 0;
+  bunches_[bunch].next = next;
+  return bunch;
 }
 
-void Drops::unlink(std::vector<Link>& links, uint32_t& head, uint32_t slot) {
-  const Link link = links[slot];
-  if (link.before != kNone)
-    links[link.before].next = link.next;
-  else
-    head = link.next;
-  if (link.next != kNone) links[link.next].before = link.before;
+void Drops::freeBunch(uint32_t bunch, uint32_t& first) {
+  if (bunch == first) {
+    first = bunches_[bunch].next;
+  } else {
+    uint32_t before = first;
+    while (bunches_[before].next != bunch) before = bunches_[before].next;
+    bunches_[before].next = bunches_[bunch].next;
+  }
+  free_bunches_.push_back(bunch);
 }
 
 void Drops::touch(uint32_t slot) {
-  if (is_changed_[slot]) return;
-  is_changed_[slot] = true;
+  if (places_[slot].changed != 0) return;
+  places_[slot].changed = 1;
   changed_.push_back(slot);
 }
 
 void Drops::clearChanged() {
-  for (const uint32_t slot : changed_) is_changed_[slot] = false;
+  for (const uint32_t slot : changed_) places_[slot].changed = 0;
   changed_.clear();
 }
 
@@ -98,37 +102,71 @@ void Drops::schedule(uint32_t slot, uint32_t now) {
   // come.
   const uint32_t ahead = std::clamp((records_[slot].end - now + kTick - 1) / kTick, 1u, kBuckets - 1);
   const uint32_t day = (now / kTick + ahead) % kBuckets;
-  bucket_[slot] = day;
-  link(on_day_, heads_[day], slot);
+  places_[slot].day = day;
+  places_[slot].on_day = {heads_[day], kNone};
+  if (heads_[day] != kNone) places_[heads_[day]].on_day.before = slot;
+  heads_[day] = slot;
 }
 
 void Drops::unschedule(uint32_t slot) {
-  if (bucket_[slot] == kNone) return;
-  unlink(on_day_, heads_[bucket_[slot]], slot);
-  bucket_[slot] = kNone;
+  const uint32_t day = places_[slot].day;
+  if (day == kNone) return;
+  const Link link = places_[slot].on_day;
+  if (link.before != kNone)
+    places_[link.before].on_day.next = link.next;
+  else
+    heads_[day] = link.next;
+  if (link.next != kNone) places_[link.next].on_day.before = link.before;
+  places_[slot].day = kNone;
 }
 
-uint32_t Drops::add(const shared::RainDrop& drop, uint32_t cell, uint32_t& first_of_cell, bool ends,
+uint32_t Drops::add(const shared::RainDrop& drop, float chance, uint32_t cell, uint32_t& bunch, bool ends,
                     uint32_t now) {
   const uint32_t slot = slots_.take();
   if (slot == kNone) return kNone;
+  if (bunch == kNone || bunches_[bunch].count == Bunch::kMost) bunch = newBunch(bunch);
   records_[slot] = drop;
   ++live_of_[shared::rainClassOf(drop)];
-  cell_[slot] = cell;
-  link(in_cell_, first_of_cell, slot);
+  Place& place = places_[slot];
+  place.cell = cell;
+  place.bunch = bunch;
+  place.in_bunch = bunches_[bunch].count;
+  place.chance = chance;
+  bunches_[bunch].slots[bunches_[bunch].count++] = slot;
   if (ends) schedule(slot, now);
   touch(slot);
   return slot;
 }
 
-void Drops::remove(uint32_t slot, uint32_t& first_of_cell) {
+// Once it is in no bunch.
+void Drops::empty(uint32_t slot) {
   unschedule(slot);
-  unlink(in_cell_, first_of_cell, slot);
-  records_[slot].diameter_m = 0.0f;
   --live_of_[shared::rainClassOf(records_[slot])];
-  cell_[slot] = kNone;
+  records_[slot].diameter_m = 0.0f;
+  places_[slot].cell = kNone;
   slots_.give(slot);
   touch(slot);
+}
+
+void Drops::remove(uint32_t slot, uint32_t& first) {
+  Bunch& bunch = bunches_[places_[slot].bunch];
+  const uint32_t last = bunch.slots[--bunch.count];
+  bunch.slots[places_[slot].in_bunch] = last;
+  places_[last].in_bunch = places_[slot].in_bunch;
+  if (bunch.count == 0) freeBunch(places_[slot].bunch, first);
+  empty(slot);
+}
+
+void Drops::removeAll(uint32_t& first) {
+  for (; first != kNone; freeBunch(first, first)) {
+    const Bunch& bunch = bunches_[first];
+    fetch(bunch.next);
+    for (uint32_t i = 0; i < bunch.count; ++i) {
+      __builtin_prefetch(&places_[bunch.slots[i]], 1);
+      __builtin_prefetch(&records_[bunch.slots[i]], 1);
+    }
+    for (uint32_t i = 0; i < bunch.count; ++i) empty(bunch.slots[i]);
+  }
 }
 
 void Drops::setEnd(uint32_t slot, uint32_t end, bool ends, uint32_t now) {
@@ -144,9 +182,11 @@ void Drops::clear() {
   for (uint32_t slot = 0; slot < capacity(); ++slot) {
     if (records_[slot].diameter_m > 0.0f) touch(slot);
     records_[slot].diameter_m = 0.0f;
-    cell_[slot] = bucket_[slot] = kNone;
+    places_[slot].cell = places_[slot].day = kNone;
   }
   heads_.assign(kBuckets, kNone);
+  bunches_.clear();
+  free_bunches_.clear();
 }
 
 }  // namespace rg::rain

@@ -29,14 +29,30 @@ class SlotPool {
   uint32_t capacity_, used_ = 0, end_ = 0;
 };
 
-// Drops by slot, each hanging in its cell's list, and in the calendar when it has an end.
+// Drops by slot, each in a bunch of its cell's, and in the calendar when it has an end. A cell's drops are
+// born and die together: bunches say at once where all of them are.
 class Drops {
  public:
   explicit Drops(uint32_t capacity);
 
-  // `now` and ends: in 1/1024 tick, modulo 2^32, as RainDrop.end. kNone when full.
-  uint32_t add(const shared::RainDrop& drop, uint32_t cell, uint32_t& first_of_cell, bool ends, uint32_t now);
-  void remove(uint32_t slot, uint32_t& first_of_cell);
+  // `now` and ends: in 1/1024 tick, modulo 2^32, as RainDrop.end. `chance`: as Candidate's. `bunch`: the
+  // cell's first, kNone when it is empty. kNone when full.
+  uint32_t add(const shared::RainDrop& drop, float chance, uint32_t cell, uint32_t& bunch, bool ends,
+               uint32_t now);
+  void remove(uint32_t slot, uint32_t& bunch);
+  void removeAll(uint32_t& bunch);
+  void fetch(uint32_t bunch) const {  // it will be wanted soon
+    if (bunch != kNone) __builtin_prefetch(&bunches_[bunch]);
+  }
+  // Calls each(slot) for the cell's drops; it may remove that one.
+  template <class F>
+  void forEach(uint32_t bunch, F&& each) {
+    while (bunch != kNone) {
+      const uint32_t next = bunches_[bunch].next;
+      for (uint32_t i = bunches_[bunch].count; i-- > 0;) each(bunches_[bunch].slots[i]);
+      bunch = next;
+    }
+  }
   void setEnd(uint32_t slot, uint32_t end, bool ends, uint32_t now);
   void clear();  // without telling the GPU slot by slot: publish all afterwards
 
@@ -51,12 +67,12 @@ class Drops {
   void startCalendar(uint32_t now) { expired_to_ = now; }
 
   const shared::RainDrop& operator[](uint32_t slot) const { return records_[slot]; }
-  bool ends(uint32_t slot) const { return bucket_[slot] != kNone; }
-  uint32_t cellOf(uint32_t slot) const { return cell_[slot]; }
-  uint32_t nextInCell(uint32_t slot) const { return in_cell_[slot].next; }
+  bool ends(uint32_t slot) const { return places_[slot].day != kNone; }
+  float chanceOf(uint32_t slot) const { return places_[slot].chance; }
+  uint32_t cellOf(uint32_t slot) const { return places_[slot].cell; }
   bool alive(uint32_t slot) const { return slots_.taken(slot); }
   uint32_t live() const { return slots_.used(); }
-  uint32_t liveOf(uint32_t kind) const { return live_of_[kind]; }  // a class
+  uint32_t liveOf(uint32_t kind) const { return live_of_[kind]; }
   uint32_t end() const { return slots_.end(); }
   uint32_t capacity() const { return static_cast<uint32_t>(records_.size()); }
 
@@ -68,20 +84,34 @@ class Drops {
   struct Link {
     uint32_t next = kNone, before = kNone;
   };
+  struct alignas(64) Bunch {
+    static constexpr uint32_t kMost = 14;
+    std::array<uint32_t, kMost> slots{};
+    uint32_t count = 0, next = kNone;
+  };
+  // Where a drop hangs: half a line of the cache, as all of it is wanted at once.
+  struct alignas(32) Place {
+    uint32_t cell = kNone, bunch = kNone, in_bunch = 0;
+    uint32_t day = kNone;
+    Link on_day;
+    float chance = 0.0f;
+    uint32_t changed = 0;
+  };
   static constexpr uint32_t kTick = 1024;
   static constexpr uint32_t kBuckets = 2048;  // ticks ahead: 17 s
 
-  static void link(std::vector<Link>& links, uint32_t& head, uint32_t slot);
-  static void unlink(std::vector<Link>& links, uint32_t& head, uint32_t slot);
+  uint32_t newBunch(uint32_t next);
+  void freeBunch(uint32_t bunch, uint32_t& first);
   void schedule(uint32_t slot, uint32_t now);
   void unschedule(uint32_t slot);
   void touch(uint32_t slot);
+  void empty(uint32_t slot);
 
   template <class F>
   void expireBucket(uint32_t tick, uint32_t now, F& expired) {
     uint32_t slot = heads_[tick % kBuckets];
     while (slot != kNone) {
-      const uint32_t next = on_day_[slot].next;
+      const uint32_t next = places_[slot].on_day.next;
       if (static_cast<int32_t>(records_[slot].end - now) <= 0) {
         expired(slot);
       } else {  // it was beyond the calendar when it was written in
@@ -94,13 +124,13 @@ class Drops {
 
   SlotPool slots_;
   std::vector<shared::RainDrop> records_;
-  std::vector<Link> in_cell_, on_day_;
-  std::vector<uint32_t> cell_, bucket_;
-  std::vector<uint32_t> heads_;
+  std::vector<Place> places_;
+  std::vector<Bunch> bunches_;
+  std::vector<uint32_t> free_bunches_;
+  std::vector<uint32_t> heads_;  // of the calendar's days
   std::vector<uint32_t> changed_;
-  std::vector<bool> is_changed_;
-  std::array<uint32_t, shared::kRainClasses> live_of_{};
   uint32_t expired_to_ = 0;
+  std::array<uint32_t, shared::kRainClasses> live_of_{};
 };
 
 }  // namespace rg::rain

@@ -53,12 +53,16 @@ void Field::State::moveTo(const Tick& t) {
 }
 
 void Field::State::forgetCells() {
-  drops.clear();
-  cells.clear();
-  border.clear();
-  bounced_cell = kNone;
+  clearCells();
   followed.reset();
   running = false;
+}
+
+void Field::State::clearCells() {
+  drops.clear();
+  cells.clear();
+  border.clear(Border::levelFor(reachPerDiameter()));
+  bounced_cell = kNone;
 }
 
 void Field::tick(const Tick& t) {
@@ -75,13 +79,14 @@ void Field::tick(const Tick& t) {
   }
   s.ground_m = std::isfinite(t.weather.ground_height_m) ? t.weather.ground_height_m : kNoGround_m;
   changes = s.shelter.advance(s.time_s(), t.vehicles);
+  if (s.border.level() != Border::levelFor(s.reachPerDiameter())) s.clearCells();
   s.findClasses();
   s.followViews(t);
   s.emptyLeftCells();
   s.expireDrops();
   if (changes.volumes || changes.bodies || gust) s.retest();
   s.thin();
-  for (const uint32_t cell : s.border.entered()) s.fillCell(cell);
+  s.fillEnteredCells();
 }
 
 // Classes of which there is nothing cost nothing. What sets in does so from the ceiling down: the air above
@@ -95,7 +100,7 @@ void Field::State::findClasses() {
 }
 
 void Field::State::followViews(const Tick& t) {
-  border.follow(t.views, frames, reachPerDiameter(), followed);
+  border.follow({t.views, reachPerDiameter(), followed}, frames);
   ceiling_m = -1e30;
   for (const auto& view : border.views()) {
     if (view->moved) ceiling_m = std::max(ceiling_m, view->eye_m.z + kCeilingAboveEye_m);
@@ -103,19 +108,26 @@ void Field::State::followViews(const Tick& t) {
 }
 
 void Field::State::emptyLeftCells() {
-  for (const uint32_t index : border.left()) {
-    while (cells[index].first_drop != kNone) {
-      drops.remove(cells[index].first_drop, cells[index].first_drop);
-      ++died;
-    }
+  const uint32_t before = drops.live();
+  const std::vector<uint32_t>& left = border.left();
+  for (size_t i = 0; i < left.size(); ++i) {
+    const uint32_t index = left[i];
+    if (i + 1 < left.size()) drops.fetch(cells[left[i + 1]].bunch);
+    drops.removeAll(cells[index].bunch);
     cells.free(index);
   }
+  died += before - drops.live();
+}
+
+void Field::State::fillEnteredCells() {
+  for (uint32_t kind = 0; kind < kClasses; ++kind) least_chance[kind] = chanceAt(rate.most_m3(kind), kind);
+  for (const uint32_t cell : border.entered()) fillCell(cell);
 }
 
 void Field::State::expireDrops() {
   drops.expire(now(), [&](uint32_t slot) {
     if (isOf(shared::rainClassOf(drops[slot]), Hydrometeor::kHail)) fallen.push_back(drops[slot]);
-    drops.remove(slot, cells[drops.cellOf(slot)].first_drop);
+    drops.remove(slot, cells[drops.cellOf(slot)].bunch);
     ++died;
   });
   for (const RainDrop& stone : fallen) bounce(stone);
@@ -126,7 +138,7 @@ void Field::State::expireDrops() {
 void Field::State::thin() {
   double expected = 0.0;
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
-    expected += border.cellsOf(kind) * classLattices()[kind].cell_m3 * rate.most_m3(kind);
+    expected += border.cellsOf(kind) * std::pow(border.cell_m(kind), 3) * rate.most_m3(kind);
   }
   const double room = kFilled * drops.capacity();
   const double wanted = expected > room ? room / expected : 1.0;
@@ -137,11 +149,13 @@ void Field::State::thin() {
     return;
   }
   keep = wanted < 1.0 ? wanted * (1.0 - kThinningStep) : 1.0;
+  std::array<double, kClasses> least{};
+  for (uint32_t kind = 0; kind < kClasses; ++kind) least[kind] = chanceAt(rate.most_m3(kind), kind);
   for (uint32_t slot = 0; slot < drops.end(); ++slot) {
     if (!drops.alive(slot)) continue;
     const uint32_t kind = shared::rainClassOf(drops[slot]);
-    if (static_cast<double>(threshold[slot]) < keep * rate.most_m3(kind)) continue;
-    drops.remove(slot, cells[drops.cellOf(slot)].first_drop);
+    if (static_cast<double>(drops.chanceOf(slot)) > least[kind]) continue;
+    drops.remove(slot, cells[drops.cellOf(slot)].bunch);
     ++died;
   }
 }

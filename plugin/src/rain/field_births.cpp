@@ -17,54 +17,68 @@ constexpr double kLongestEnd_s = 8000.0;  // ends beyond are none
 }  // namespace
 
 dvec3 Field::State::cellMiddle(const CellKey& key) const {
-  return frames.origin(key.kind) + (dvec3(key.x, key.y, key.z) + 0.5) * classLattices()[key.kind].cell_m;
+  return frames.origin(key.kind) + (dvec3(key.x, key.y, key.z) + 0.5) * border.cell_m(key.kind);
 }
 
 bool Field::State::lookAround(const CellKey& key, bool past) {
   if (shelter.empty()) return false;
-  return shelter.lookAround(cellMiddle(key), dvec3(0.5 * classLattices()[key.kind].cell_m),
-                            frames.path(key.kind), time_s(), past);
+  return shelter.lookAround(cellMiddle(key), dvec3(0.5 * border.cell_m(key.kind)), frames.path(key.kind),
+                            time_s(), past);
 }
 
+// A cell of the border is a block of the standing lattice's, which are filled one by one.
 void Field::State::fillCell(uint32_t index) {
-  const CellKey key = cells[index].key;
-  const ClassLattice& lattice = classLattices()[key.kind];
-  const double most = keep * rate.most_m3(key.kind);
-  Candidates candidates(settings.seed, key, lattice.cell_m3);
-  const Candidate* candidate = &candidates.next();
-  if (candidate->threshold_m3 >= most) return;
-  const bool near_volume = lookAround(key, true);
-  cells[index].near_volume = near_volume;
-  const double least_delay = set_in.test(key.kind) ? 1.0 : 0.0;
-  const double corner_z = cellMiddle(key).z - 0.5 * lattice.cell_m;
-  for (; candidate->threshold_m3 < most; candidate = &candidates.next()) {
-    // What rain there is where the drop is was decided when it fell through the ceiling.
-    const double z = corner_z + candidate->fraction_z * 0x1p-16 * lattice.cell_m;
-    const double fallen_ticks = (ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz);
-    const double delay = rate.steady() ? 0.0 : std::max(least_delay, fallen_ticks);
-    const InTheAir& then = rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
-    if (candidate->threshold_m3 >= keep * then.density_m3[key.kind]) continue;
-    if (!birth(index, *candidate, then, near_volume)) return;
+  const CellKey block = cells[index].key;
+  bool looked = false;
+  const int32_t side = 1 << border.level();
+  for (int32_t x = 0; x < side; ++x) {
+    for (int32_t y = 0; y < side; ++y) {
+      for (int32_t z = 0; z < side; ++z)
+        fillStanding(index, {block.x * side + x, block.y * side + y, block.z * side + z, block.kind}, looked);
+    }
   }
 }
 
-// False when the buffer is full.
-bool Field::State::birth(uint32_t index, const Candidate& candidate, const InTheAir& then, bool near_volume) {
-  const CellKey key = cells[index].key;
+void Field::State::fillStanding(uint32_t index, const CellKey& key, bool& looked) {
+  const double least = least_chance[key.kind];
+  Candidates candidates(settings.seed, key);
+  for (const Candidate* c = &candidates.next(); c->chance > least; c = &candidates.next()) {
+    if (!looked) cells[index].near_volume = lookAround(cells[index].key, true);
+    looked = true;
+    const InTheAir& then = rate.steady() ? rate.now() : whenFallen(key, *c);
+    if (!rate.steady() && c->chance <= chanceAt(then.density_m3[key.kind], key.kind)) continue;
+    if (!birth(index, key, *c, then)) return;
+  }
+}
+
+// What rain there is where a drop is was decided when it fell through the ceiling.
+const InTheAir& Field::State::whenFallen(const CellKey& key, const Candidate& candidate) const {
   const ClassLattice& lattice = classLattices()[key.kind];
+  const double z = frames.origin(key.kind).z + (key.z + candidate.fraction_z * 0x1p-16) * lattice.cell_m;
+  const double fallen_ticks = (ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz),
+               delay = std::max(set_in.test(key.kind) ? 1.0 : 0.0, fallen_ticks);
+  return rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
+}
+
+// The least chance of a drop that exists where the law has so many.
+double Field::State::chanceAt(double density_m3, uint32_t kind) const {
+  return std::exp(-keep * density_m3 * classLattices()[kind].cell_m3);
+}
+
+// False when the buffer is full.
+bool Field::State::birth(uint32_t index, const CellKey& key, const Candidate& candidate,
+                         const InTheAir& then) {
   RainDrop drop{};
   drop.cell_x = key.x;
   drop.cell_y = key.y;
   drop.cell_z = key.z;
   drop.fraction_xy = candidate.fraction_x | candidate.fraction_y << 16;
   drop.fraction_z_class = candidate.fraction_z | key.kind << 16;
-  // To a tenth of a micrometre, so that the last digit of a machine's log does not show.
-  drop.diameter_m = static_cast<float>(
-      std::round(drawnDiameter_mm(lattice.drops.hydrometeor, then.quantile(key.kind, candidate.size)) * 1e4) *
-      1e-7);
+  drop.diameter_m = diameterOf_m(then, key.kind, candidate.size);
   drop.id = candidate.id;
   drop.end = now() + kEndless;
   bool ends = false;
+  const bool near_volume = cells[index].near_volume;
   if (near_volume || isOf(key.kind, Hydrometeor::kHail)) {
     const dvec3 place = placeOf(drop);
     const double falls_s = fallsFor(drop, place, near_volume);
@@ -74,9 +88,9 @@ bool Field::State::birth(uint32_t index, const Candidate& candidate, const InThe
     }
     ends = endOf(falls_s, drop.end);
   }
-  const uint32_t slot = drops.add(drop, index, cells[index].first_drop, ends, now());
+  const uint32_t slot =
+      drops.add(drop, static_cast<float>(candidate.chance), index, cells[index].bunch, ends, now());
   if (slot == kNone) return false;
-  threshold[slot] = static_cast<float>(candidate.threshold_m3);
   ++born;
   return true;
 }
@@ -118,9 +132,9 @@ void Field::State::bounce(const RainDrop& stone) {
   if (drop.diameter_m == 0.0f || static_cast<int32_t>(end - now()) <= 0) return;
   bool is_fresh = false;
   if (bounced_cell == kNone) bounced_cell = cells.acquire({0, 0, 0, kBouncedClass}, is_fresh);
-  const uint32_t slot = drops.add(drop, bounced_cell, cells[bounced_cell].first_drop, true, now());
+  constexpr float kAlways = 2.0f;  // as chance: it is there, however much is thinned
+  const uint32_t slot = drops.add(drop, kAlways, bounced_cell, cells[bounced_cell].bunch, true, now());
   if (slot == kNone) return;
-  threshold[slot] = -1.0f;  // it is there, however much is thinned
   ++born;
   ++bounced;
 }
@@ -130,8 +144,7 @@ void Field::State::bounce(const RainDrop& stone) {
 // changed: drops that never were stay so.
 void Field::State::retest() {
   for (uint32_t index = 0; index < cells.poolSize(); ++index) {
-    if (cells[index].views > 0 && cells[index].first_drop != kNone && index != bounced_cell)
-      retestCell(index);
+    if (cells[index].views > 0 && cells[index].bunch != kNone && index != bounced_cell) retestCell(index);
   }
 }
 
@@ -140,19 +153,17 @@ void Field::State::retestCell(uint32_t index) {
   const bool near_volume = lookAround(cell.key, false);
   if (!near_volume && !cell.near_volume) return;
   cell.near_volume = near_volume;
-  for (uint32_t slot = cell.first_drop; slot != kNone;) {
-    const uint32_t next = drops.nextInCell(slot);
+  drops.forEach(cell.bunch, [&](uint32_t slot) {
     const double falls_s = fallsFor(drops[slot], placeOf(drops[slot]), near_volume);
     uint32_t end = 0;
     const bool ends = endOf(falls_s, end);
     if (falls_s <= 0.0) {
-      drops.remove(slot, cell.first_drop);
+      drops.remove(slot, cell.bunch);
       ++died;
     } else if (ends != drops.ends(slot) || (ends && end != drops[slot].end)) {
       drops.setEnd(slot, end, ends, now());
     }
-    slot = next;
-  }
+  });
 }
 
 }  // namespace rg::rain

@@ -38,11 +38,12 @@ void Field::State::describe(Picture& picture) const {
 
 void Field::publish(Upload& upload) {
   State& s = *state_;
-  for (const uint32_t slot : s.drops.changed()) {
-    upload.slots.push_back(slot);
-    upload.records.push_back(s.drops[slot]);
-  }
-  s.uploaded += s.drops.changed().size() * sizeof(RainDrop);
+  const std::vector<uint32_t>& changed = s.drops.changed();
+  upload.slots.insert(upload.slots.end(), changed.begin(), changed.end());
+  size_t at = upload.records.size();
+  upload.records.resize(at + changed.size());
+  for (const uint32_t slot : changed) upload.records[at++] = s.drops[slot];
+  s.uploaded += changed.size() * sizeof(RainDrop);
   s.drops.clearChanged();
   s.describe(upload.picture);
 }

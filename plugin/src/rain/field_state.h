@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cstdint>
 #include <vector>
@@ -24,10 +25,7 @@ inline bool isOf(uint32_t kind, Hydrometeor hydrometeor) {
 
 struct Field::State {
   explicit State(const FieldSettings& given)
-      : settings(given),
-        drops(std::clamp(given.capacity, 1000u, 4000000u)),
-        threshold(drops.capacity(), 0.0f),
-        border(cells) {
+      : settings(given), drops(std::clamp(given.capacity, 1000u, 4000000u)), border(cells) {
     fallen.reserve(1u << 12);
   }
 
@@ -35,7 +33,6 @@ struct Field::State {
   Visibility visibility;
   WindProfile profile;  // from the next tick on
   Drops drops;
-  std::vector<float> threshold;  // by slot, as Candidate's
   Cells cells;
   Border border;
   Shelter shelter;
@@ -51,6 +48,7 @@ struct Field::State {
   uint32_t bounced_cell = kNone;           // in which bounced stones hang
   std::vector<RainDrop> fallen;            // stones that came down in this tick
   double keep = 1.0;                       // share of the law's drops that is born
+  std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
   uint64_t born = 0, died = 0, sheltered = 0, bounced = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
@@ -61,6 +59,8 @@ struct Field::State {
   void start(const Tick& t);
   void moveTo(const Tick& t);
   void forgetCells();
+  void clearCells();
+  void fillEnteredCells();
   void findClasses();
   void followViews(const Tick& t);
   void emptyLeftCells();
@@ -69,7 +69,10 @@ struct Field::State {
 
   // field_births.cpp: which drops a cell holds, and until when.
   void fillCell(uint32_t index);
-  bool birth(uint32_t index, const Candidate& candidate, const InTheAir& then, bool near_volume);
+  void fillStanding(uint32_t index, const CellKey& key, bool& looked);
+  const InTheAir& whenFallen(const CellKey& key, const Candidate& candidate) const;
+  double chanceAt(double density_m3, uint32_t kind) const;
+  bool birth(uint32_t index, const CellKey& key, const Candidate& candidate, const InTheAir& then);
   double fallsFor(const RainDrop& drop, const glm::dvec3& place_m, bool near_volume);
   void bounce(const RainDrop& stone);
   void retest();

@@ -154,6 +154,11 @@ InTheAir InTheAir::of(const Rates& rates) {
   scaleToRate(air, Hydrometeor::kMeltingSnow, snowSlope_per_mm(snow_mm_h), kFirstMelting, kFirstHail);
   scaleToRate(air, Hydrometeor::kHail, hailSlope_per_mm(rates[Hydrometeor::kHail]), kFirstHail,
               kBouncedClass);
+  for (uint32_t i = 0; i < kBouncedClass; ++i) {
+    const FallClass& c = fallClasses()[i];
+    air.part[i] =
+        -std::expm1(-air.slope_per_mm[static_cast<uint32_t>(c.hydrometeor)] * (c.to_mm - c.from_mm));
+  }
   return air;
 }
 

@@ -63,6 +63,7 @@ struct InTheAir {
   Rates rates;
   std::array<double, kHydrometeors> slope_per_mm{};  // of sizes ~ exp(-slope D)
   std::array<double, kClasses> density_m3{};         // particles per m3
+  std::array<double, kClasses> part{};               // 1 - exp(-slope * a class's width)
   // Rain by its law (SizeLaw); of the others the classes together deliver exactly their rates.
   static InTheAir of(const Rates& rates);
 

@@ -40,6 +40,7 @@ struct Picture {
   uint32_t slot_end = 0;     // all live drops lie in slots below
   std::array<ClassPicture, kClasses> classes;
   std::vector<NearVolume> volumes;
+  bool volumesFit() const;  // into what a view can be told of them
 };
 
 // Filled by Field::publish, emptied by RainRenderer::upload. Not locked: the owner guards it.
@@ -56,6 +57,9 @@ struct StreakSetup {
   shared::RainShelter shelter;
   shared::RainView view;
 };
+// Of the volumes only the nearest find room, kRainNearVolumes with kRainNearPlanes in all. Where there are
+// more of them, streaks are drawn only as far as the first that found none: rain is seen less far, never in
+// the dry.
 void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns, StreakSetup& out);
 
 }  // namespace rg::rain

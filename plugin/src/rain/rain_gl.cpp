@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "gl/objects.h"
@@ -28,14 +29,19 @@ constexpr uint32_t groupsOf(uint32_t slots) {
   return (slots + shared::kRainDrawnGroup - 1) / shared::kRainDrawnGroup;
 }
 
-// The two triangles of each of a group's streaks, whose corners are four vertices.
-std::vector<uint32_t> quads() {
+// The two triangles of each of a group's streaks. Both end with the streak's first corner, whose flat values
+// count.
+std::vector<uint32_t> rectangles() {
   std::vector<uint32_t> indices;
   for (uint32_t i = 0; i < shared::kRainDrawnGroup; ++i) {
-    for (const uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices.push_back(4 * i + corner);
+    for (const uint32_t corner : {1u, 3u, 0u, 3u, 2u, 0u}) indices.push_back(4 * i + corner);
   }
   return indices;
 }
+
+// Corners of the streaks of so many slots; beyond the last streak's, what its corners but the first read in
+// vain.
+size_t cornersOf(uint32_t slots) { return size_t{4} * groupsOf(slots) * shared::kRainDrawnGroup + 3; }
 
 vec4 wide(const vec3& v) { return vec4(v, 0.0f); }
 
@@ -119,9 +125,9 @@ RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_dro
       classes(gl, sizeof(ClassBlock)),
       shelter(gl, sizeof(shared::RainShelter)),
       look(gl, sizeof(RainLook)),
-      drawn(gl, size_t{groupsOf(capacity)} * shared::kRainDrawnGroup * sizeof(shared::RainDrawn), 0),
+      drawn(gl, cornersOf(capacity) * sizeof(shared::RainCorner), 0),
       commands(gl, size_t{groupsOf(capacity)} * sizeof(shared::RainCommand), 0),
-      corners(gl, std::span<const uint32_t>(quads())),
+      corners(gl, std::span<const uint32_t>(rectangles())),
       vertices(gl),
       nearest(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
       mipmapped(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
@@ -129,6 +135,12 @@ RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_dro
       last_write(capacity) {
   records.zero();
   vertices.bindIndices(corners.name());
+  vertices.bindBuffer(0, drawn.name(), 0, sizeof(shared::RainCorner));
+  vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(shared::RainCorner, place));
+  for (GLuint i = 0; i < 4; ++i) {
+    vertices.attribute(1 + i, 0, 4, GL_FLOAT,
+                       i * GLuint{sizeof(shared::RainCorner)} + GLuint{offsetof(shared::RainCorner, told)});
+  }
 }
 
 void RainRenderer::Objects::send(std::span<const uint32_t> to, std::span<const RainDrop> drops) {
@@ -177,6 +189,11 @@ void RainRenderer::Objects::setDrawState(const RainDraw& draw, bool soft_depth) 
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(draw.view->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
   }
+  if (draw.target.color_texture != 0) {
+    // Read before the streaks are drawn, not while they are.
+    gl.BindTextureUnit(2, draw.target.color_texture);
+    gl.BindSampler(2, nearest.name());
+  }
   if (draw.lighting.environment_cube != 0) {
     gl.BindTextureUnit(1, draw.lighting.environment_cube);
     gl.BindSampler(1, mipmapped.name());
@@ -193,12 +210,13 @@ void RainRenderer::Objects::drawStreaks(uint32_t slot_end) {
   prepare.use();
   prepare.set(0, slot_end);
   gl.DispatchCompute(groupsOf(slot_end), 1, 1);
-  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   streak.use();
   gl.BindVertexArray(vertices.name());
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
   gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                                static_cast<GLsizei>(groupsOf(slot_end)), 0);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's streaks do not overtake these
 }
 
 RainRenderer::RainRenderer(const gl::Context& context, uint32_t capacity)
@@ -241,6 +259,7 @@ void RainRenderer::draw(const RainDraw& draw) {
   setLight(draw.lighting, look);
   look.lamp_count = setLamps(draw.lighting.lamps, coneOf(*draw.view).eye_m, look);
   look.soft_depth = soft_depth ? 1 : 0;
+  look.colour_behind = draw.target.color_texture != 0 ? 1 : 0;
   look.environment = levelsOfCube(o.gl, draw.lighting.environment_cube);
   o.look.write(0, &look, sizeof look);
 

@@ -70,6 +70,45 @@ void extent(const Cone& cone, const Margin& margin, double cell_m, double radius
   high = std::min(radius, radius * farthest + wider);
 }
 
+// So many rows along z are found together, as the machine can.
+constexpr int32_t kAtOnce = 8;
+static_assert(RowSet::kRows % kAtOnce == 0);
+
+// Whole cells [first, last) whose middle lies between low and high, both within +-22 of the eye; nothing of
+// the kind is an empty span.
+void findSpans(const Sides& sides, float y, float first_z, float radius_sq, float eye_x, int32_t base_x,
+               RowSpan* spans) {
+  std::array<float, kAtOnce> z, low, high;
+  for (size_t i = 0; i < kAtOnce; ++i) z[i] = first_z + static_cast<float>(i);
+  for (size_t i = 0; i < kAtOnce; ++i) {
+    const float rest = radius_sq - y * y - z[i] * z[i];
+    high[i] = rest > 0.0f ? std::sqrt(rest) : -1.0f;
+    low[i] = -high[i];
+  }
+  for (int s = 0; s < sides.lows; ++s) {
+    const Side& side = sides.low[static_cast<size_t>(s)];
+    for (size_t i = 0; i < kAtOnce; ++i)
+      low[i] = std::max(low[i], side.offset + side.by_y * y + side.by_z * z[i]);
+  }
+  for (int s = 0; s < sides.highs; ++s) {
+    const Side& side = sides.high[static_cast<size_t>(s)];
+    for (size_t i = 0; i < kAtOnce; ++i)
+      high[i] = std::min(high[i], side.offset + side.by_y * y + side.by_z * z[i]);
+  }
+  // Ceiling and floor by truncation, above zero.
+  constexpr float kAbove = 64.0f, kBeyond = 32.0f;
+  std::array<int32_t, kAtOnce> first, last;
+  for (size_t i = 0; i < kAtOnce; ++i) {
+    const float from = low[i] + eye_x - 0.5f, to = high[i] + eye_x - 0.5f;
+    const float above = kAbove - (from < kBeyond ? from : kBeyond),
+                below = kAbove + (to > -kBeyond ? to : -kBeyond);
+    const int32_t begin = 64 - static_cast<int32_t>(above), end = static_cast<int32_t>(below) - 63;
+    first[i] = begin < end ? base_x + begin : 0;
+    last[i] = begin < end ? base_x + end : 0;
+  }
+  for (size_t i = 0; i < kAtOnce; ++i) spans[i] = {first[i], last[i]};
+}
+
 }  // namespace
 
 Cone coneOf(const ViewState& view) {
@@ -128,28 +167,10 @@ void findRows(const Cone& cone, const Margin& margin, const dvec3& eye_cells, do
   const float radius_sq = static_cast<float>(radius * radius), eye_x = static_cast<float>(eye.x);
   for (int32_t iy = 0; iy < out.ny; ++iy) {
     const float y = static_cast<float>(y_first + iy + 0.5 - eye.y);
-    RowSpan* row = &out.rows[static_cast<size_t>(iy) * RowSet::kRows];
-    for (int32_t iz = 0; iz < out.nz; ++iz) {
+    RowSpan* row = out.line(out.y0 + iy);
+    for (int32_t iz = 0; iz < out.nz; iz += kAtOnce) {
       const float z = static_cast<float>(z_first + iz + 0.5 - eye.z);
-      const float rest = radius_sq - y * y - z * z;
-      const float half = std::sqrt(std::max(rest, 0.0f));
-      float low = -half, high = half;
-      for (int i = 0; i < sides.lows; ++i) {
-        const Side& s = sides.low[static_cast<size_t>(i)];
-        low = std::max(low, s.offset + s.by_y * y + s.by_z * z);
-      }
-      for (int i = 0; i < sides.highs; ++i) {
-        const Side& s = sides.high[static_cast<size_t>(i)];
-        high = std::min(high, s.offset + s.by_y * y + s.by_z * z);
-      }
-      if (rest < 0.0f || low > high) {
-        row[iz] = {};
-        continue;
-      }
-      // Cells whose middle lies between low and high; both within +-22.
-      const int32_t first = static_cast<int32_t>(std::ceil(low + eye_x - 0.5f)),
-                    last = static_cast<int32_t>(std::floor(high + eye_x - 0.5f)) + 1;
-      row[iz] = first < last ? RowSpan{base_x + first, base_x + last} : RowSpan{};
+      findSpans(sides, y, z, radius_sq, eye_x, base_x, row + iz);
     }
   }
 }

@@ -35,6 +35,7 @@ struct Margin {
 struct RowSpan {
   int32_t first = 0;
   int32_t last = 0;
+  bool operator==(const RowSpan&) const = default;
 };
 
 // The rows of a region: y in [y0, y0 + ny), z in [z0, z0 + nz).
@@ -43,10 +44,12 @@ struct RowSet {
   int32_t y0 = 0, z0 = 0, ny = 0, nz = 0;
   std::array<RowSpan, size_t{kRows} * kRows> rows;
 
-  RowSpan at(int32_t y, int32_t z) const {
-    if (y < y0 || z < z0 || y >= y0 + ny || z >= z0 + nz) return {};
-    return rows[static_cast<size_t>(y - y0) * kRows + static_cast<size_t>(z - z0)];
+  bool hasZ(int32_t z) const { return z >= z0 && z < z0 + nz; }
+  // The rows of one y, from z0 on; null when there are none.
+  const RowSpan* line(int32_t y) const {
+    return y >= y0 && y < y0 + ny ? &rows[static_cast<size_t>(y - y0) * kRows] : nullptr;
   }
+  RowSpan* line(int32_t y) { return &rows[static_cast<size_t>(y - y0) * kRows]; }
   void clear() { ny = nz = 0; }
 };
 

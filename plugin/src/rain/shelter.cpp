@@ -9,6 +9,7 @@ namespace {
 using glm::dvec3;
 
 constexpr uint32_t kLeaf = 2;
+constexpr double kLeastChord_s = 1e-3;  // however absurdly a body spins
 
 // Times (enter, leave) within [from, to] at which p + v t is inside; enter > leave: never. (Cyrus & Beck
 // 1978.)
@@ -51,6 +52,25 @@ bool meetsSphere(const dvec3& to_centre, const dvec3& v, double from, double to,
   const double nearest = speed_sq > 0.0 ? std::clamp(glm::dot(to_centre, v) / speed_sq, from, to) : from;
   const dvec3 miss = to_centre - v * nearest;
   return glm::dot(miss, miss) <= radius * radius;
+}
+
+// When a point that moves by `v` is within a sphere, of [0, until].
+Span timesInSphere(const dvec3& to_centre, const dvec3& v, double until, double radius) {
+  const double a = glm::dot(v, v), b = glm::dot(to_centre, v),
+               c = glm::dot(to_centre, to_centre) - radius * radius;
+  if (a <= 0.0) return c <= 0.0 ? Span{0.0, until} : Span{1.0, 0.0};
+  const double under = b * b - a * c;
+  if (!(under >= 0.0)) return {1.0, 0.0};  // nor when it is no number
+  const double half = std::sqrt(under);
+  return {std::max(0.0, (b - half) / a), std::min(until, (b + half) / a)};
+}
+
+// A turning body sees a straight path bent: by 2 w x v + w x (w x r) per s2 (Coriolis and the centrifuge).
+// Chords of so many seconds stay within half a millimetre of it (the sagitta is a t^2 / 8).
+double chord_s(double turn_radps, double speed_mps, double radius_m) {
+  constexpr double kSagitta_m = 0.5e-3;
+  const double bend_mps2 = turn_radps * (2.0 * speed_mps + turn_radps * radius_m);
+  return std::sqrt(8.0 * kSagitta_m / bend_mps2);
 }
 
 }  // namespace
@@ -232,38 +252,51 @@ bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath
   return !met_.empty() || !met_bodies_.empty();
 }
 
-// The first time within the piece at which the drop is inside the body, kNever_s when it is not.
+// The first time of [from_s, to_s] at which a drop, at `from_m` then, is inside the body as it moves in one
+// piece of its path; kNever_s when it is not.
+double Shelter::entryDuring(const Body& body, const BodyPath::Piece& motion, const dvec3& from_m,
+                            const dvec3& velocity, double from_s, double to_s) {
+  const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from_s - motion.from_s);
+  const dvec3 past = velocity - motion.pose.velocity_mps;
+  const Span near = timesInSphere(there - from_m, past, to_s - from_s, body.radius_m);
+  if (near.enter > near.leave) return kNever_s;
+  const auto inBody = [&](double t) {
+    return intoBody(movedOn(motion.pose, t - motion.from_s), from_m + velocity * (t - from_s));
+  };
+  const double turn = glm::length(motion.pose.angular_velocity_radps), end = from_s + near.leave;
+  const double step = std::max(chord_s(turn, glm::length(past), body.radius_m), kLeastChord_s);
+  double begin = from_s + near.enter;
+  dvec3 a = inBody(begin);
+  while (begin < end) {
+    const double next = std::min(begin + step, end);
+    const dvec3 b = inBody(next);
+    double first = kNever_s;
+    for (const uint32_t i : body.volumes) {
+      ++tests_;
+      const Span span = timesInside(list_[i]->shape.planes, a, (b - a) / (next - begin), 0.0, next - begin);
+      if (span.enter <= span.leave) first = std::min(first, begin + span.enter);
+    }
+    if (first < kNever_s) return first;
+    begin = next;
+    a = b;
+  }
+  return kNever_s;
+}
+
+// The first time within the piece at which the drop is inside the body, relative to now; kNever_s when it is
+// not.
 double Shelter::entryOfBody(const Body& body, const dvec3& place, const PathPiece& piece, double now_s) {
   double first = kNever_s;
   double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
   for (uint32_t age = 0; age < body.path.pieces(); ++age) {
     const BodyPath::Piece& motion = body.path.piece(age);
     if (until <= now_s - BodyPath::kBehind_s) break;
-    double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s});
-    const double to = until;
+    const double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s}),
+                 to = until;
     until = std::min(until, motion.from_s);
     if (from >= to) continue;
-    const auto drop = [&](double t) {
-      return place + piece.from_m + piece.velocity_mps * (t - now_s - piece.from_s);
-    };
-    const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from - motion.from_s);
-    if (!meetsSphere(there - drop(from), piece.velocity_mps - motion.pose.velocity_mps, 0.0, to - from,
-                     body.radius_m))
-      continue;
-    // A turning body sees a straight path bent; cut so that chords of 3 m arms stay within 1 mm: 0.05 rad.
-    const double turn = glm::length(motion.pose.angular_velocity_radps);
-    const double step = turn > 1e-6 ? 0.05 / turn : to - from;
-    for (; from < to; from += step) {
-      const double end = std::min(from + step, to);
-      const dvec3 a = intoBody(movedOn(motion.pose, from - motion.from_s), drop(from));
-      const dvec3 b = intoBody(movedOn(motion.pose, end - motion.from_s), drop(end));
-      if (end <= from) break;
-      for (const uint32_t i : body.volumes) {
-        ++tests_;
-        const Span span = timesInside(list_[i]->shape.planes, a, (b - a) / (end - from), 0.0, end - from);
-        if (span.enter <= span.leave) first = std::min(first, from + span.enter - now_s);
-      }
-    }
+    const dvec3 from_m = place + piece.from_m + piece.velocity_mps * (from - now_s - piece.from_s);
+    first = std::min(first, entryDuring(body, motion, from_m, piece.velocity_mps, from, to) - now_s);
   }
   return first;
 }
@@ -353,14 +386,12 @@ void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearV
   const auto closeTo = [&](auto&& gap) {
     return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; });
   };
-  for (uint32_t i = 0; i < statics_; ++i) {
-    const Convex& shape = list_[i]->shape;
-    if (!closeTo([&](const dvec3& eye) {
-          return glm::length(glm::max(glm::max(shape.box.low - eye, eye - shape.box.high), dvec3(0.0)));
-        }))
-      continue;
-    out.push_back({0, Pose{}, shape.planes, shape.centre, shape.radius_m});
-  }
+  const auto boxCloseTo = [&](const Box& box) {
+    return closeTo([&](const dvec3& eye) {
+      return glm::length(glm::max(glm::max(box.low - eye, eye - box.high), dvec3(0.0)));
+    });
+  };
+  nearStatic(0, boxCloseTo, out);
   for (const auto& [id, body] : bodies_) {
     if (!body.known) continue;
     for (const uint32_t i : body.volumes) {
@@ -369,6 +400,21 @@ void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearV
       if (!closeTo([&](const dvec3& eye) { return glm::distance(centre, eye) - shape.radius_m; })) continue;
       out.push_back({id, body.path.pose(), shape.planes, shape.centre, shape.radius_m});
     }
+  }
+}
+
+template <class F>
+void Shelter::nearStatic(uint32_t node, const F& closeTo, std::vector<NearVolume>& out) const {
+  if (nodes_.empty() || !closeTo(nodes_[node].box)) return;
+  const auto [box, first, count] = nodes_[node];
+  if (count == 0) {
+    nearStatic(first, closeTo, out);
+    nearStatic(first + 1, closeTo, out);
+    return;
+  }
+  for (uint32_t i = first; i < first + count; ++i) {
+    const Convex& shape = list_[i]->shape;
+    if (closeTo(shape.box)) out.push_back({0, Pose{}, shape.planes, shape.centre, shape.radius_m});
   }
 }
 

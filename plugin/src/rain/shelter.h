@@ -107,7 +107,12 @@ class Shelter {
   void gatherStatic(const glm::dvec3& middle_m, const glm::dvec3& half_m, const PathPiece& piece);
   void gatherBodies(const glm::dvec3& middle_m, double radius_m, const ClassPath& path, double now_s,
                     bool past);
+  double entryDuring(const Body& body, const BodyPath::Piece& motion, const glm::dvec3& from_m,
+                     const glm::dvec3& velocity_mps, double from_s, double to_s);
   double entryOfBody(const Body& body, const glm::dvec3& place_m, const PathPiece& piece, double now_s);
+
+  template <class F>
+  void nearStatic(uint32_t node, const F& closeTo, std::vector<NearVolume>& out) const;
 
   std::map<uint32_t, std::shared_ptr<Volume>> volumes_;
   bool changed_ = false;

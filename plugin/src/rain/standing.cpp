@@ -1,6 +1,7 @@
 #include "rain/standing.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace rg::rain {
@@ -16,27 +17,26 @@ uint64_t mix(uint64_t z) {
   return z ^ (z >> 31);
 }
 
-// ln(x) for x in (0, 1], from exact operations alone so that every machine's rain is the same: x = m 2^e, ln
-// m = 2 atanh((m - 1) / (m + 1)).
+// ln(x) for x in (0, 1] (not below 1e-300), from exact operations alone so that every machine's rain is the
+// same: x = m 2^e, ln m = 2 atanh((m - 1) / (m + 1)), |s| < 0.172 below. So many terms of its series leave
+// out less than 3e-8.
 double portableLog(double x) {
-  int exponent = 0;
-  double mantissa = std::frexp(x, &exponent);
+  const auto bits = std::bit_cast<uint64_t>(x);
+  int exponent = static_cast<int>(bits >> 52) - 1022;
+  double mantissa = std::bit_cast<double>((bits & 0x000fffffffffffffu) | 0x3fe0000000000000u);  // 0.5 .. 1
   if (mantissa < 0.70710678118654752) {
     mantissa *= 2.0;
     --exponent;
   }
-  const double s = (mantissa - 1.0) / (mantissa + 1.0),
-               q = s * s;  // |s| < 0.172: the term left out is below 1e-12
-  const double series =
-      1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q / 13)))));
-  return 2.0 * s * series + exponent * 0.69314718055994531;
+  const double s = (mantissa - 1.0) / (mantissa + 1.0), q = s * s;
+  return 2.0 * s * (1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q / 7))) + exponent * 0.69314718055994531;
 }
 
 }  // namespace
 
-Candidates::Candidates(uint64_t seed, const CellKey& key, double cell_m3) : per_gap_m3_(1.0 / cell_m3) {
-  const uint64_t xy = uint64_t{static_cast<uint32_t>(key.x)} << 32 | static_cast<uint32_t>(key.y);
-  const uint64_t zk = uint64_t{static_cast<uint32_t>(key.z)} << 32 | key.kind;
+Candidates::Candidates(uint64_t seed, const CellKey& cell) {
+  const uint64_t xy = uint64_t{static_cast<uint32_t>(cell.x)} << 32 | static_cast<uint32_t>(cell.y);
+  const uint64_t zk = uint64_t{static_cast<uint32_t>(cell.z)} << 32 | cell.kind;
   state_ = mix(mix(mix(seed + 0x9e3779b97f4a7c15u) ^ xy) + zk);
 }
 
@@ -47,8 +47,7 @@ uint64_t Candidates::draw() {
 
 const Candidate& Candidates::next() {
   const uint64_t a = draw(), b = draw();
-  const double gap = -portableLog((static_cast<double>(a >> 32) + 0.5) * 0x1p-32);
-  candidate_.threshold_m3 += gap * per_gap_m3_;
+  candidate_.chance *= (static_cast<double>(a >> 32) + 0.5) * 0x1p-32;
   candidate_.size = (static_cast<double>(a & 0xffffffffu) + 0.5) * 0x1p-32;
   candidate_.fraction_x = static_cast<uint32_t>(b & 0xffffu);
   candidate_.fraction_y = static_cast<uint32_t>(b >> 16 & 0xffffu);
@@ -80,6 +79,14 @@ const std::array<ClassLattice, kClasses>& classLattices() {
     return made;
   }();
   return lattices;
+}
+
+float diameterOf_m(const InTheAir& air, uint32_t kind, double size) {
+  const FallClass& c = fallClasses()[kind];
+  const double slope = air.slope_per_mm[static_cast<uint32_t>(c.hydrometeor)];
+  const double mm = slope > 0.0 ? c.from_mm - portableLog(1.0 - size * air.part[kind]) / slope : c.from_mm;
+  const double across_mm = drawnDiameter_mm(c.hydrometeor, mm);
+  return static_cast<float>(static_cast<double>(static_cast<int64_t>(across_mm * 1e4 + 0.5)) * 1e-7);
 }
 
 void RateHistory::fill(const Rates& rates) {

@@ -9,26 +9,26 @@
 
 namespace rg::rain {
 
-// A drop that may be: it exists wherever the class has more than `threshold_m3` drops per m3. With thresholds
-// in ascending order as a Poisson process of their own, the drops that exist are a Poisson field of the right
-// density at every rate, and a rate that changes only adds or takes away drops, never swaps them.
+// A drop that may be: it exists wherever its cell would be empty of drops with a probability, exp(-mean
+// number), below `chance`. The chances of a cell are products of uniform numbers (Knuth, The Art of Computer
+// Programming 2, 3.4.1), so that the drops that exist are a Poisson field of the right density at every rate,
+// and a rate that changes only adds or takes away drops, never swaps them.
 struct Candidate {
-  double threshold_m3 = 0.0;
+  double chance = 1.0;
   uint32_t fraction_x = 0, fraction_y = 0, fraction_z = 0;  // of the cell, 16 bits
   double size = 0.0;  // 0 .. 1, its place among the class's drops ordered by size
   uint32_t id = 0;
 };
 
-// Walks a cell's candidates, thresholds ascending without end.
+// Walks a cell's candidates, chances descending without end.
 class Candidates {
  public:
-  Candidates(uint64_t seed, const CellKey& key, double cell_m3);
+  Candidates(uint64_t seed, const CellKey& cell);
   const Candidate& next();
 
  private:
   uint64_t draw();
   uint64_t state_;
-  double per_gap_m3_;
   Candidate candidate_;
 };
 
@@ -37,7 +37,7 @@ struct ClassLattice {
   FallClass drops;
   double largest_mm = 0.0;  // across, as drawn
   double swing_m = 0.0;     // of flakes about their way, as drawn
-  double reach_mm = 0.0;    // the same, but no more than what says how far it is seen
+  double reach_mm = 0.0;    // how far it is seen goes by this: largest_mm, or less
   double cell_m = 1.0;
   double cell_m3 = 1.0;
 };
@@ -45,6 +45,10 @@ struct ClassLattice {
 // follow the view's edge (they add about a half to its drops), large enough that a view's border has few.
 // Bounced stones stand in a lattice of 1/4096 m that is at rest: its cells are places.
 const std::array<ClassLattice, kClasses>& classLattices();
+
+// What a candidate's particle measures across, in whole tenths of a micrometre, so that the last digit of a
+// machine's logarithm does not show.
+float diameterOf_m(const InTheAir& air, uint32_t kind, double size);
 
 // Densities of all classes as the rates were over the last seconds: rain that sets in fills the sky from
 // above.

@@ -11,6 +11,7 @@ namespace {
 using glm::dvec3;
 
 constexpr double kThinnest_m = 1e-3;  // flatter bodies are called flat
+constexpr double kSheet_m = 0.5e-3;   // and made so much thicker to either side
 constexpr double kUnitTolerance = 1e-3;
 constexpr double kLargest_m = 1e7;  // coordinates beyond are a mistake
 
@@ -32,8 +33,9 @@ Plane planeThrough(const dvec3& a, const dvec3& b, const dvec3& c) {
   return {normal, glm::dot(normal, a)};
 }
 
-// Four corners of a tetrahedron that is nowhere thinner than kThinnest_m; false when the points are flat.
-bool firstTetrahedron(std::span<const dvec3> p, std::array<uint32_t, 4>& corner) {
+// Four corners of a tetrahedron among the points, and how many dimensions it has: below three where the next
+// corner would lie within kThinnest_m of the others' point, line or plane.
+int spread(std::span<const dvec3> p, std::array<uint32_t, 4>& corner) {
   const auto farthest = [&](auto&& distance) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < p.size(); ++i) {
@@ -41,16 +43,17 @@ bool firstTetrahedron(std::span<const dvec3> p, std::array<uint32_t, 4>& corner)
     }
     return best;
   };
+  if (p.empty()) return 0;
   corner[0] = farthest([&](const dvec3& q) { return -q.x; });
   corner[1] = farthest([&](const dvec3& q) { return glm::distance(q, p[corner[0]]); });
   const dvec3 along = p[corner[1]] - p[corner[0]];
-  if (glm::length(along) < kThinnest_m) return false;
+  if (glm::length(along) < kThinnest_m) return 0;
   corner[2] = farthest([&](const dvec3& q) { return glm::length(glm::cross(along, q - p[corner[0]])); });
   if (glm::length(glm::cross(along, p[corner[2]] - p[corner[0]])) < kThinnest_m * glm::length(along))
-    return false;
+    return 1;
   const Plane base = planeThrough(p[corner[0]], p[corner[1]], p[corner[2]]);
   corner[3] = farthest([&](const dvec3& q) { return std::abs(glm::dot(base.normal, q) - base.d); });
-  return std::abs(glm::dot(base.normal, p[corner[3]]) - base.d) >= kThinnest_m;
+  return std::abs(glm::dot(base.normal, p[corner[3]]) - base.d) >= kThinnest_m ? 3 : 2;
 }
 
 // Adds one point to the hull: the faces that see it go, their rim is joined to it.
@@ -95,10 +98,25 @@ std::vector<Plane> planesOf(std::span<const dvec3> p, const std::vector<Face>& f
   return planes;
 }
 
-std::string hull(const VolumeInfo& info, std::vector<Plane>& planes) {
-  const auto p = info.vertices;
+// A sheet's points, moved to either side.
+std::vector<dvec3> thickened(std::span<const dvec3> p, const std::array<uint32_t, 4>& corner) {
+  const dvec3 up = planeThrough(p[corner[0]], p[corner[1]], p[corner[2]]).normal * kSheet_m;
+  std::vector<dvec3> both;
+  for (const dvec3& q : p) {
+    both.push_back(q + up);
+    both.push_back(q - up);
+  }
+  return both;
+}
+
+std::string hull(const VolumeInfo& info, std::vector<dvec3>& p, std::vector<Plane>& planes) {
   std::array<uint32_t, 4> t{};
-  if (!firstTetrahedron(p, t)) return complain(info, "its vertices lie in a plane (thinner than 1 mm)");
+  const int dimensions = spread(p, t);
+  if (dimensions < 2) return complain(info, "its vertices lie on a line (within 1 mm)");
+  if (dimensions == 2) {
+    p = thickened(p, t);
+    spread(p, t);
+  }
   std::vector<Face> faces;
   const dvec3 middle = 0.25 * (p[t[0]] + p[t[1]] + p[t[2]] + p[t[3]]);
   const auto addFace = [&](uint32_t a, uint32_t b, uint32_t c) {
@@ -185,19 +203,20 @@ std::string checkPlanes(const VolumeInfo& info, std::vector<Plane>& planes) {
   return {};
 }
 
-std::string boundPlanes(const VolumeInfo& info, std::span<const Plane> planes, std::vector<dvec3>& corners) {
+std::string boundPlanes(const VolumeInfo& info, std::vector<Plane>& planes, std::vector<dvec3>& corners) {
   corners = cornersOf(planes);
+  std::array<uint32_t, 4> tetrahedron{};
+  if (isOpen(planes)) return complain(info, "its planes do not enclose a finite volume");
+  const int dimensions = spread(corners, tetrahedron);
+  if (dimensions == 3) return {};
   std::vector<Plane> turned(planes.begin(), planes.end());
   for (Plane& plane : turned) plane = {-plane.normal, -plane.d};
-  std::array<uint32_t, 4> tetrahedron{};
-  const auto solid = [&](const std::vector<dvec3>& c) {
-    return c.size() >= 4 && firstTetrahedron(c, tetrahedron);
-  };
-  if (isOpen(planes)) return complain(info, "its planes do not enclose a finite volume");
-  if (solid(corners)) return {};
-  if (solid(cornersOf(turned)))
+  if (spread(cornersOf(turned), tetrahedron) == 3)
     return complain(info, "its planes are turned inside out (normals must point out)");
-  return complain(info, "its planes enclose nothing, or less than 1 mm");
+  if (dimensions < 2) return complain(info, "its planes enclose nothing");
+  for (Plane& plane : planes) plane.d += kSheet_m;
+  corners = cornersOf(planes);
+  return {};
 }
 
 void bound(std::span<const dvec3> points, Convex& convex) {
@@ -218,14 +237,14 @@ std::string makeConvex(const VolumeInfo& info, Convex& out) {
   std::vector<dvec3> points(info.vertices.begin(), info.vertices.end());
   if (info.vertices.empty() == info.planes.empty()) return complain(info, "give either vertices or planes");
   if (!info.vertices.empty()) {
-    if (points.size() < 4 || points.size() > Convex::kMaxVertices) {
-      return complain(info, "has " + std::to_string(points.size()) + " vertices, not 4 to 256");
+    if (points.size() < 3 || points.size() > Convex::kMaxVertices) {
+      return complain(info, "has " + std::to_string(points.size()) + " vertices, not 3 to 256");
     }
     for (size_t i = 0; i < points.size(); ++i) {
       if (!finite(points[i]))
         return complain(info, "vertex " + std::to_string(i) + " is not a finite number");
     }
-    if (auto wrong = hull(info, made.planes); !wrong.empty()) return wrong;
+    if (auto wrong = hull(info, points, made.planes); !wrong.empty()) return wrong;
   } else {
     if (info.planes.size() < 4 || info.planes.size() > Convex::kMaxPlanes) {
       return complain(info, "has " + std::to_string(info.planes.size()) + " planes, not 4 to 64");

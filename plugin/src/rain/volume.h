@@ -24,7 +24,7 @@ struct Box {
 struct VolumeInfo {
   uint32_t vehicle = 0;  // 0: world coordinates; else that vehicle's frame
   std::string name;
-  std::span<const glm::dvec3> vertices;  // 4..256, not all in a plane
+  std::span<const glm::dvec3> vertices;  // 3..256, not all on a line
   std::span<const Plane> planes;         // 4..64, unit normals pointing out, enclosing a finite volume
   bool active = true;
 };
@@ -41,9 +41,10 @@ struct Convex {
 };
 
 // Builds `out` from `info`. Returns an empty text, or what is wrong with it, naming the volume; then `out` is
-// untouched. Refused: NaN or infinite numbers, too few or many, vertices in a plane (thinner than 1 mm),
-// planes that are not of unit length, leave the volume open, or enclose nothing (turned inside out). Vertices
-// whose hull has more than 64 faces are refused too.
+// untouched. What is flat (a sheet thinner than 1 mm) is made thicker by 0.5 mm to either side. Refused: NaN
+// or infinite numbers, too few or many, vertices on a line, planes that are not of unit length, leave the
+// volume open, or enclose nothing (turned inside out). Vertices whose hull has more than 64 faces are refused
+// too.
 [[nodiscard]] std::string makeConvex(const VolumeInfo& info, Convex& out);
 
 }  // namespace rg::rain
