@@ -35,7 +35,7 @@ struct Load {
   double factor, rain_mm_h, speed_mps;
 };
 constexpr double kBirths = 1500.0;  // a tick
-constexpr Load kLoads[] = {{20000, 1.4, 29.0, 17.5}, {200000, 4.5, 15.0, 1.4}};
+constexpr Load kLoads[] = {{20000, 1.4, 31.5, 17.8}, {200000, 4.5, 7.6, 1.4}};
 
 const Load& loadOf(int64_t live) {
   return *std::find_if(std::begin(kLoads), std::end(kLoads), [&](const Load& l) { return l.live == live; });
@@ -45,7 +45,7 @@ const Load& loadOf(int64_t live) {
 class Drive {
  public:
   Drive(const Load& load, uint32_t volumes)
-      : field({.capacity = 400000, .seed = 1}), load_(load), road_m_(kCanopies_m * (volumes - 16)) {
+      : field({.capacity = 800000, .seed = 1}), load_(load), road_m_(kCanopies_m * (volumes - 16)) {
     // The factor as asked may go beyond its range; the reference takes what is left.
     const double within = std::clamp(load.factor, 0.25, 4.0);
     field.setVisibility({.factor = within, .reference_px = 1663.0 * load.factor / within});

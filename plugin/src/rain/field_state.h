@@ -38,6 +38,14 @@ struct Field::State {
   double ceiling_m = 0.0;
   double keep = 1.0;                            // share of the law's drops that is born
   std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
+  // What a cell that is filled will hold, unless a volume kept it off.
+  struct Coming {
+    RainDrop drop;
+    double size = 0.0;
+    float chance = 0.0f;
+    const RateHistory::Entry* then = nullptr;
+  };
+  std::vector<Coming> coming;  // kept for its room
   uint64_t born = 0, died = 0, sheltered = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
@@ -56,10 +64,10 @@ struct Field::State {
 
   // field_births.cpp: which drops a cell holds, and until when.
   void fillCell(uint32_t index);
-  void fillStanding(uint32_t index, const CellKey& key, bool& looked);
+  void findComing(const CellKey& key);
   const RateHistory::Entry& whenFallen(const CellKey& key, const Candidate& candidate) const;
   double chanceAt(double density_m3, uint32_t kind) const;
-  bool birth(uint32_t index, const CellKey& key, const Candidate& candidate, const RateHistory::Entry& then);
+  bool birth(uint32_t index, const Coming& coming_drop);
   void retest();
   void retestCell(uint32_t index);
   glm::dvec3 cellMiddle(const CellKey& key) const;
