@@ -133,8 +133,7 @@ void RainUpdate(benchmark::State& state) {
   const double births = static_cast<double>(after.born - before.born - cut);
   count(state, "live", live);
   count(state, "births", births);
-  count(state, "record_bytes",
-        static_cast<double>(after.uploaded_bytes - before.uploaded_bytes - cut_bytes));
+  count(state, "record_bytes", static_cast<double>(after.uploaded_bytes - before.uploaded_bytes - cut_bytes));
   count(state, "shelter_tests", static_cast<double>(after.shelter_tests - before.shelter_tests));
   tellLoad(state, load);
   if (state.iterations() < 1000) return;  // too short a way for a mean
