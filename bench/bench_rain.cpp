@@ -40,7 +40,7 @@ constexpr Load kLoads[] = {{20000, 1.4, 31.5, 17.8, 1500},
                            // A drizzle, rain and a cloudburst at 100 km/h.
                            {1000, 0.89, 2, 27.8, 0},
                            {10000, 1.027, 25, 27.8, 0},
-                           {100000, 1.635, 100, 27.8, 0}};
+                           {100000, 1.76, 100, 27.8, 0}};
 
 const Load& loadOf(int64_t live) {
   return *std::find_if(std::begin(kLoads), std::end(kLoads), [&](const Load& l) { return l.live == live; });
