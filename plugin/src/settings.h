@@ -7,7 +7,7 @@
 namespace rg {
 
 struct Settings {
-  double rain_gain = 2.5;
+  double rain_gain = 5.0;
   double rain_visibility_factor = 1.2;
   double rain_reference_px = 1663.0;
   double glass_brightness = 1.0;

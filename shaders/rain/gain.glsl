@@ -2,7 +2,7 @@
 #include "rain/streak.glsl"
 layout(binding = 2) uniform sampler2D scene_colour;
 
-const float kDarkBehind = 0.15;  // brightness beside the drop's at which half of the gain is left (unsourced)
+const float kDarkBehind = 0.25;  // brightness beside the drop's at which some 60 % of the gain is left (unsourced)
 const int kLooksBehind = 4;
 
 float luminance(vec3 c) {

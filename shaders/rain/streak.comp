@@ -73,7 +73,7 @@ bool seenOf(uint slot, out Seen result) {
   return true;
 }
 
-// The rectangle in the picture's plane: the fragments tell along and across, depth and time by themselves.
+// The rectangle lies in the picture's plane; fragments tell from their place in it when the drop passed, and how far beside them.
 void put(uint first, uint slot, Seen s) {
   vec2 way = s.ends_px.zw - s.ends_px.xy;
   float way_px = length(way);
@@ -83,18 +83,17 @@ void put(uint first, uint slot, Seen s) {
   float middle_px = s.radius_px_m * inversesqrt(depths_m.x * depths_m.y);  // as a drop's pace on the picture goes with the depths' product
   float pixel_half_px = rainPixelHalf(along);
   float length_px = rainLength(way_px, middle_px), longer_px = 0.5 * (length_px - way_px);
-  vec2 side = vec2(-along.y, along.x) * (max(radii_px.x, radii_px.y) + pixel_half_px);
+  float side_px = max(radii_px.x, radii_px.y) + pixel_half_px;
+  vec2 side = vec2(-along.y, along.x) * side_px, clip = 2.0 / look.viewport.zw;
   vec2 from_px = s.ends_px.xy - along * longer_px, to_px = s.ends_px.zw + along * longer_px;
-  vec2 clip = 2.0 / look.viewport.zw;
   float from_stored = rainStoredDepth(depths_m.x, look.depth_rows), to_stored = rainStoredDepth(depths_m.y, look.depth_rows);
-  drawn[first].place = vec4((from_px - side) * clip, from_stored, float(slot));
-  drawn[first].told = vec4(from_px + look.viewport.xy + 0.5 * look.viewport.zw, along);
-  drawn[first + 1u].place = vec4((from_px + side) * clip, from_stored, longer_px);
-  drawn[first + 1u].told = vec4(1.0 / length_px, 1.0 / depths_m, pixel_half_px + float(s.solid));
-  drawn[first + 2u].place = vec4((to_px - side) * clip, to_stored, s.ends_px.z);
-  drawn[first + 2u].told = vec4(times, 1.0 / radii_px);
-  drawn[first + 3u].place = vec4((to_px + side) * clip, to_stored, s.ends_px.w);
-  drawn[first + 3u].told = vec4(s.colour.rgb, s.colour.a * rainDwell(middle_px, times.y - times.x, length_px, pixel_half_px));
+  vec4 colour = vec4(s.colour.rgb, s.colour.a * rainDwell(middle_px, times.y - times.x, length_px, pixel_half_px));
+  vec2 from_per = 1.0 / vec2(depths_m.x, radii_px.x), to_per = 1.0 / vec2(depths_m.y, radii_px.y);
+  drawn[first] =
+      RainCorner(vec4((from_px - side) * clip, from_stored, 1.0), vec4(0.0, -side_px, from_per), vec4(times, to_per.x, pixel_half_px + float(s.solid)));
+  drawn[first + 1u] = RainCorner(vec4((from_px + side) * clip, from_stored, 1.0), vec4(0.0, side_px, from_per), colour);
+  drawn[first + 2u] = RainCorner(vec4((to_px - side) * clip, to_stored, 1.0), vec4(1.0, -side_px, to_per), s.ends_px);
+  drawn[first + 3u] = RainCorner(vec4((to_px + side) * clip, to_stored, 1.0), vec4(1.0, side_px, to_per), vec4(float(slot), 0.0, 0.0, 0.0));
 }
 
 void main() {

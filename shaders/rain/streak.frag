@@ -4,26 +4,25 @@
 
 layout(binding = 0) uniform sampler2D scene_depth;
 
-layout(location = 0) flat in vec4 streak_line;    // xy: where it begins, window px; zw: its direction there
-layout(location = 1) flat in vec4 streak_depths;  // x: 1 / its length, 1/px; yz: 1 / depth at its ends, 1/m; w: half a pixel's width across it, px (< 1), + rainSolidCode
-layout(location = 2) flat in vec4 streak_ends;    // of its ends: xy: times, -1 .. 1 over the whole exposure; zw: 1 / radius, 1/px
-layout(location = 3) flat in vec4 streak_colour;  // rgb: as the target holds it; a: cover where it is densest
+layout(location = 0) noperspective in vec4 streak_seen;  // as of RainCorner
+layout(location = 1) flat in vec4 streak_times;   // xy: of its ends, -1 .. 1 over the whole exposure; z: 1 / depth at its end, 1/m; w: half a pixel's
+                                                  // width across it, px (< 1), + rainSolidCode
+layout(location = 2) flat in vec4 streak_colour;  // rgb: as the target holds it; a: cover where it is densest
 layout(location = 0) out vec4 colour;
 
 const float kSoft_m = 0.05;  // streaks end over this length at what they meet, so that no hard edge flickers
 
 void main() {
-  vec2 p = gl_FragCoord.xy - streak_line.xy;
-  float at = dot(p, streak_line.zw) * streak_depths.x;
-  float across_px = streak_line.z * p.y - streak_line.w * p.x;
-  float depth_m = 1.0 / mix(streak_depths.y, streak_depths.z, at);
+  float depth_m = 1.0 / streak_seen.z;
   // Time passes evenly in the world, not on the picture.
-  float time = mix(streak_ends.x, streak_ends.y, at * streak_depths.z * depth_m);
-  float per_radius = mix(streak_ends.z, streak_ends.w, at), pixel_half_px = fract(streak_depths.w);
-  float share = rainShutter(time) * rainWithin(across_px, pixel_half_px, per_radius);
-  if (streak_depths.w > 1.0) {
-    float squareness = min(2.0 * streak_depths.x / per_radius, 1.0);
-    share = rainSolid(share, 2.0 * at - 1.0, across_px * per_radius, squareness, pixel_half_px, 1.0 / per_radius, uint(streak_depths.w));
+  float time = mix(streak_times.x, streak_times.y, streak_seen.x * streak_times.z * depth_m);
+  float pixel_half_px = fract(streak_times.w);
+  float share = rainShutter(time) * rainWithin(streak_seen.y, pixel_half_px, streak_seen.w);
+  if (streak_times.w > 1.0) {
+    float per_length = length(vec2(dFdx(streak_seen.x), dFdy(streak_seen.x)));  // 1 / px: along the streak its first part goes from 0 to 1
+    float squareness = clamp(2.0 * per_length / streak_seen.w, 1e-3, 1.0);
+    share = rainSolid(share, 2.0 * streak_seen.x - 1.0, streak_seen.y * streak_seen.w, squareness, pixel_half_px, 1.0 / streak_seen.w,
+                      uint(streak_times.w));
   }
   float cover = streak_colour.a * share;
   if (look.soft_depth != 0u) {

@@ -12,14 +12,14 @@ RG_SHARED_BEGIN
 
 RG_CONST uint kRainDrawnGroup = 256u;  // slots a workgroup looks at, and one draw command draws
 
-// A corner of a streak's rectangle; four make a streak, the first and second pair at its sides. All corners read what is told of the streak from
-// this one on, which is right for the first, and that is the one which flat values are taken from.
+// A corner of a streak's rectangle; four make a streak: both at its beginning, then both at its end.
 struct RainCorner {
-  vec4 place;  // xyz: in clip space; w, for tests, of the corners in turn: the drop's slot; how much longer the streak is drawn at either end, px;
-               // x and y of where it ends, px from the viewport's middle
-  vec4 told;   // of the corners in turn: streak.vert's streak_line, streak_depths, streak_ends, streak_colour
+  vec4 place;  // in clip space
+  vec4 seen;   // linear on the picture: place along the streak, 0 .. 1; across it, px; 1 / depth along the view, 1/m; 1 / softened radius, 1/px
+  vec4 told;   // of the whole streak, of the corners in turn: streak.vert's streak_times; its streak_colour; for tests, where it begins (xy) and ends
+               // (zw), px from the viewport's middle; the drop's slot (x)
 };
-RG_SIZE(RainCorner, 32)
+RG_SIZE(RainCorner, 48)
 
 // As glMultiDrawElementsIndirect reads it.
 struct RainCommand {

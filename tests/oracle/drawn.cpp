@@ -13,11 +13,10 @@ namespace {
 constexpr int kWidth_px = 128, kHeight_px = 72;  // where segments end does not depend on it
 // What is fed back of each corner of a streak's two triangles.
 struct Corner {
-  glm::vec4 line;    // streak.vert's streak_line
-  glm::vec4 depths;  // and streak_depths
-  float extra;
+  glm::vec4 seen;  // RainCorner's
+  glm::vec4 told;
 };
-constexpr std::array<const char*, 3> kFedBack{"streak_line", "streak_depths", "corner_extra"};
+constexpr std::array<const char*, 2> kFedBack{"streak_seen", "fed_back"};
 constexpr size_t kCorners = 6;
 // Where among them the streak's corners are.
 constexpr std::array<size_t, 4> kPlaces{2, 0, 4, 1};
@@ -119,13 +118,11 @@ std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::View
   if (!read_back_) return segments;
   const std::vector<Corner> corners = g.fedBack();
   for (size_t i = 0; i < corners.size(); i += kCorners) {
-    const Corner& c = corners[i + kPlaces[0]];
-    std::array<float, 4> extra{};
-    for (size_t k = 0; k < 4; ++k) extra[k] = corners[i + kPlaces[k]].extra;
-    const glm::vec2 begin = glm::vec2(c.line.x, c.line.y) - 0.5f * glm::vec2(kWidth_px, kHeight_px) +
-                            extra[1] * glm::vec2(c.line.z, c.line.w);
-    segments.at(static_cast<size_t>(extra[0])) = {true, placeOf(view, begin, 1.0f / c.depths.y),
-                                                  placeOf(view, {extra[2], extra[3]}, 1.0f / c.depths.z)};
+    const auto corner = [&](size_t k) -> const Corner& { return corners[i + kPlaces[k]]; };
+    const glm::vec4 ends_px = corner(2).told;
+    segments.at(static_cast<size_t>(corner(3).told.x)) = {
+        true, placeOf(view, {ends_px.x, ends_px.y}, 1.0f / corner(0).seen.z),
+        placeOf(view, {ends_px.z, ends_px.w}, 1.0f / corner(2).seen.z)};
   }
   return segments;
 }

@@ -111,8 +111,8 @@ TEST_P(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
   constexpr int kPictures = 100, kCells = 64;
   constexpr double kSigmas = 4.0;  // 16 statistics: one in a thousand seeds fails
   Field field({.capacity = 200000, .seed = 5});
-  Scene scene = sceneWithView(50);
-  const SizeLaw law = SizeLaw::of(50);
+  Scene scene = sceneWithView(motion.rate_mm_h);
+  const SizeLaw law = SizeLaw::of(motion.rate_mm_h);
   const double solid_angle = solidAngle(coneOf(scene.views[0]));
   std::array<std::array<double, kCells>, kGroups> total{};
   std::array<double, kGroups> spread{}, mean{};
@@ -159,7 +159,7 @@ TEST_P(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
 
 INSTANTIATE_TEST_SUITE_P(Motions, Chance,
                          ::testing::Values(Motion{"standing", 50, 0, 0}, Motion{"driving", 50, 100 * kKmh, 0},
-                                           Motion{"at250kmh", 50, 250 * kKmh, 0},
+                                           Motion{"at250kmh", 25, 250 * kKmh, 0},
                                            Motion{"turning", 50, 0, 1.0472},
                                            Motion{"swinging", 50, 10, 1.0472, true}),
                          nameOf);

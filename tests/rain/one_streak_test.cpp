@@ -21,6 +21,7 @@ constexpr uint32_t kTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_
                               RG_TOUCHED_BLEND | RG_TOUCHED_DEPTH | RG_TOUCHED_RASTER;
 constexpr int kWidth_px = 320, kHeight_px = 180;
 constexpr double kSlope = 0.57735026919;  // of the view's edge: 60 deg across
+constexpr float kThroughFaces = 0.94f;    // what a drop shows of the light about it
 constexpr double kFocal_px = 0.5 * kWidth_px / kSlope;
 
 // The eye at the origin looks along +x; +y is left, +z up.
@@ -28,6 +29,8 @@ struct Case {
   dvec3 place_m{5, 0, 0}, velocity_mps{0, 0, -8}, eye_velocity_mps{0.0};
   double diameter_m = 2e-3, exposure_s = 1.0 / 60.0;
   float gain = 1.0f;
+  float drop_radiance = 0.0f, behind = 1.0f;
+  bool colour_told = false;  // the target's texture, so that what is behind can be looked at
   dvec3 past() const { return velocity_mps - eye_velocity_mps; }  // the drop's velocity as the eye sees it
 };
 
@@ -109,13 +112,13 @@ class OneStreak : public rg::test::GlTest {
     target = gl::Framebuffer(loaded->gl, {&colour});
   }
 
-  // What of each pixel the drop covers: a black drop before white.
+  // What of each pixel the drop covers, from how it changes what is behind it.
   Covers drawn(const Case& c) {
     const gl::StateGuard guard(*loaded, kTouches);
     Upload upload = uploadOf(c);
     renderer->upload(upload);
-    const float white[] = {1, 1, 1, 1};
-    loaded->gl.ClearNamedFramebufferfv(target.name(), GL_COLOR, 0, white);
+    const float behind[] = {c.behind, c.behind, c.behind, 1};
+    loaded->gl.ClearNamedFramebufferfv(target.name(), GL_COLOR, 0, behind);
     ViewState view = viewAt(dvec3(0));
     view.eye_velocity_mps = c.eye_velocity_mps;
     view.exposure_s = c.exposure_s;
@@ -123,15 +126,17 @@ class OneStreak : public rg::test::GlTest {
     draw.view = &view;
     draw.viewport_px = {0, 0, kWidth_px, kHeight_px};
     draw.target.framebuffer = target.name();
+    draw.target.color_texture = c.colour_told ? colour.name() : 0;
     draw.target.width_px = kWidth_px;
     draw.target.height_px = kHeight_px;
-    draw.lighting.sky_radiance = draw.lighting.ground_radiance = glm::vec3(0.0f);
+    draw.lighting.sky_radiance = draw.lighting.ground_radiance = glm::vec3(c.drop_radiance / kThroughFaces);
     draw.gain = c.gain;
     renderer->draw(draw);
     const rg::test::Picture picture = rg::test::readTexture(loaded->gl, colour.name());
     Covers covers;
     for (int y = 0; y < kHeight_px; ++y) {
-      for (int x = 0; x < kWidth_px; ++x) covers.at(x, y) = 1.0 - static_cast<double>(picture.at(x, y).x);
+      for (int x = 0; x < kWidth_px; ++x)
+        covers.at(x, y) = static_cast<double>((picture.at(x, y).x - c.behind) / (c.drop_radiance - c.behind));
     }
     return covers;
   }
@@ -219,6 +224,25 @@ TEST_F(OneStreak, coversInProportionToTheGain) {
     EXPECT_NEAR(drawn(c).sum(), static_cast<double>(gain) * physical,
                 1e-3 * static_cast<double>(gain) * physical);
   }
+}
+
+// Before the dark eyes see a streak as it is: of the gain there is the less, the darker what is behind it is.
+TEST_F(OneStreak, isDrawnWithLessOfTheGainTheDarkerWhatIsBehindIt) {
+  const auto covered = [&](float gain, float behind) {
+    return drawn({.gain = gain, .drop_radiance = 1.0f, .behind = behind, .colour_told = true}).sum();
+  };
+  const double physical = drawn({.drop_radiance = 1.0f, .behind = 0.0f}).sum();
+  EXPECT_NEAR(covered(6.0f, 0.0f), physical, 0.01 * physical);
+  double before = physical;
+  for (const float behind : {0.05f, 0.2f, 0.5f, 0.8f}) {
+    const double sum = covered(6.0f, behind);
+    EXPECT_GT(sum, 1.1 * before) << behind;
+    before = sum;
+  }
+  // As bright or brighter: all of it. A gain of one, or less, is the same before everything.
+  EXPECT_NEAR(covered(6.0f, 4.0f), 6.0 * physical, 0.06 * physical);
+  EXPECT_NEAR(covered(1.0f, 0.2f), physical, 0.01 * physical);
+  EXPECT_NEAR(covered(0.5f, 0.0f), 0.5 * physical, 0.01 * physical);
 }
 
 // Physics.md's example: a 2 mm drop exposed for 1/60 s changes what is behind it by about 1 %.

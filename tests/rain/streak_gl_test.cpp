@@ -108,8 +108,9 @@ class StreakPicture : public rg::test::GlTest {
   std::unique_ptr<gl::Context> loaded;
 };
 
-// Within 5 %, from where hardly a drop is as wide as a pixel to where most near ones are, at a camera's gain
-// and at a driver's.
+// From where hardly a drop is as wide as a pixel to where most near ones are, at a camera's gain and at a
+// driver's. To 2 %: at 160 x 90 what is seen of streaks at the picture's rim is cut by pixels as large as
+// they.
 TEST_F(StreakPicture, addsTheSameBrightnessAtEveryResolution) {
   for (const double rate_mm_h : {5.0, 50.0}) {
     const Rain rain(rate_mm_h, 0.0);
@@ -118,7 +119,7 @@ TEST_F(StreakPicture, addsTheSameBrightnessAtEveryResolution) {
       EXPECT_GT(largest, 1e-5);
       for (const int height : {90, 360}) {
         const Shown shown{.width = height * 16 / 9, .height = height, .gain = gain};
-        EXPECT_NEAR(addedOverGround(draw(rain, shown)), largest, 0.05 * largest)
+        EXPECT_NEAR(addedOverGround(draw(rain, shown)), largest, 0.02 * largest)
             << height << " lines, " << rate_mm_h << " mm/h, gain " << gain;
       }
     }

@@ -223,7 +223,7 @@ TEST(Reach, settingItFartherShowsMoreOfTheSameRain) {
     field.tick(scene.tick());
     const std::set<DropKey> now = liveKeys(field);
     EXPECT_TRUE(std::ranges::includes(now, before)) << factor;
-    EXPECT_GT(now.size(), before.size() * 2);
+    EXPECT_GT(now.size(), before.size());
     before = now;
     double in_view = 0.0;
     Upload upload;

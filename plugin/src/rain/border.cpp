@@ -23,8 +23,9 @@ Border::Border(Cells& cells) : cells_(cells) {
 }
 
 uint32_t Border::levelFor(double reach_per_diameter) {
+  constexpr double kHalfAStep = 1.4142;  // of level: the one that is nearest in ratio
   uint32_t level = 0;
-  while (reach_per_diameter > 2.0 * kReferenceReach * static_cast<double>(1u << level)) ++level;
+  while (reach_per_diameter > kHalfAStep * kReferenceReach * static_cast<double>(1u << level)) ++level;
   return level;
 }
 

@@ -37,7 +37,7 @@ struct Sought {
 };
 
 // The border's cells are blocks of 2^level cells of the standing lattice along each axis, so that there are
-// no more of them however far drops are seen: six to twelve along a class's reach, six as a rule.
+// no more of them however far drops are seen: along a class's reach as near to six as powers of two come.
 class Border {
  public:
   explicit Border(Cells& cells);

@@ -157,14 +157,19 @@ void Drops::remove(uint32_t slot, uint32_t& first) {
   empty(slot);
 }
 
+void Drops::fetchDrops(uint32_t bunch) const {
+  if (bunch == kNone) return;
+  fetch(bunches_[bunch].next);
+  for (uint32_t i = 0; i < bunches_[bunch].count; ++i) {
+    __builtin_prefetch(&places_[bunches_[bunch].slots[i]], 1);
+    __builtin_prefetch(&records_[bunches_[bunch].slots[i]], 1);
+  }
+}
+
 void Drops::removeAll(uint32_t& first) {
   for (; first != kNone; freeBunch(first, first)) {
     const Bunch& bunch = bunches_[first];
-    fetch(bunch.next);
-    for (uint32_t i = 0; i < bunch.count; ++i) {
-      __builtin_prefetch(&places_[bunch.slots[i]], 1);
-      __builtin_prefetch(&records_[bunch.slots[i]], 1);
-    }
+    fetchDrops(bunch.next);
     for (uint32_t i = 0; i < bunch.count; ++i) empty(bunch.slots[i]);
   }
 }

@@ -41,9 +41,11 @@ class Drops {
                uint32_t now);
   void remove(uint32_t slot, uint32_t& bunch);
   void removeAll(uint32_t& bunch);
-  void fetch(uint32_t bunch) const {  // it will be wanted soon
+  // To the cache, as they will be wanted soon: the bunch, and then, when it is there, its drops.
+  void fetch(uint32_t bunch) const {
     if (bunch != kNone) __builtin_prefetch(&bunches_[bunch]);
   }
+  void fetchDrops(uint32_t bunch) const;
   // Calls each(slot) for the cell's drops; it may remove that one.
   template <class F>
   void forEach(uint32_t bunch, F&& each) {

@@ -111,10 +111,10 @@ void Field::State::emptyLeftCells() {
   const uint32_t before = drops.live();
   const std::vector<uint32_t>& left = border.left();
   for (size_t i = 0; i < left.size(); ++i) {
-    const uint32_t index = left[i];
-    if (i + 1 < left.size()) drops.fetch(cells[left[i + 1]].bunch);
-    drops.removeAll(cells[index].bunch);
-    cells.free(index);
+    if (i + 2 < left.size()) drops.fetch(cells[left[i + 2]].bunch);
+    if (i + 1 < left.size()) drops.fetchDrops(cells[left[i + 1]].bunch);
+    drops.removeAll(cells[left[i]].bunch);
+    cells.free(left[i]);
   }
   died += before - drops.live();
 }

@@ -26,28 +26,35 @@ bool Field::State::lookAround(const CellKey& key, bool past) {
                             time_s(), past);
 }
 
-// A cell of the border is a block of the standing lattice's, which are filled one by one.
+// A cell of the border is a block of the standing lattice's. All that may be born in it are found first, then
+// their sizes, which have nothing to wait for but their own logarithms.
 void Field::State::fillCell(uint32_t index) {
   const CellKey block = cells[index].key;
-  bool looked = false;
+  coming.clear();
   const int32_t side = 1 << border.level();
   for (int32_t x = 0; x < side; ++x) {
     for (int32_t y = 0; y < side; ++y) {
       for (int32_t z = 0; z < side; ++z)
-        fillStanding(index, {block.x * side + x, block.y * side + y, block.z * side + z, block.kind}, looked);
+        findComing({block.x * side + x, block.y * side + y, block.z * side + z, block.kind});
     }
+  }
+  if (coming.empty()) return;
+  for (Coming& c : coming) c.drop.diameter_m = diameterOf_m(*c.then, block.kind, c.size);
+  cells[index].near_volume = lookAround(block, true);
+  for (const Coming& c : coming) {
+    if (!birth(index, c)) return;
   }
 }
 
-void Field::State::fillStanding(uint32_t index, const CellKey& key, bool& looked) {
+void Field::State::findComing(const CellKey& key) {
   const double least = least_chance[key.kind];
   Candidates candidates(settings.seed, key);
   for (const Candidate* c = &candidates.next(); c->chance > least; c = &candidates.next()) {
-    if (!looked) cells[index].near_volume = lookAround(cells[index].key, true);
-    looked = true;
     const InTheAir& then = rate.steady() ? rate.now() : whenFallen(key, *c);
     if (!rate.steady() && c->chance <= chanceAt(then.density_m3[key.kind], key.kind)) continue;
-    if (!birth(index, key, *c, then)) return;
+    coming.push_back({RainDrop{key.x, key.y, key.z, c->fraction_x | c->fraction_y << 16,
+                               c->fraction_z | key.kind << 16, 0.0f, 0, c->id},
+                      c->size, static_cast<float>(c->chance), &then});
   }
 }
 
@@ -66,31 +73,22 @@ double Field::State::chanceAt(double density_m3, uint32_t kind) const {
 }
 
 // False when the buffer is full.
-bool Field::State::birth(uint32_t index, const CellKey& key, const Candidate& candidate,
-                         const InTheAir& then) {
-  RainDrop drop{};
-  drop.cell_x = key.x;
-  drop.cell_y = key.y;
-  drop.cell_z = key.z;
-  drop.fraction_xy = candidate.fraction_x | candidate.fraction_y << 16;
-  drop.fraction_z_class = candidate.fraction_z | key.kind << 16;
-  drop.diameter_m = diameterOf_m(then, key.kind, candidate.size);
-  drop.id = candidate.id;
+bool Field::State::birth(uint32_t index, const Coming& coming_drop) {
+  Cell& cell = cells[index];
+  RainDrop drop = coming_drop.drop;
   drop.end = now() + kEndless;
   bool ends = false;
-  const bool near_volume = cells[index].near_volume;
-  if (near_volume || isOf(key.kind, Hydrometeor::kHail)) {
+  if (cell.near_volume || isOf(cell.key.kind, Hydrometeor::kHail)) {
     const dvec3 place = placeOf(drop);
-    const double falls_s = fallsFor(drop, place, near_volume);
-    if (falls_s <= 0.0 || (near_volume && shelter.cameThrough(place, frames.path(key.kind), time_s()))) {
-      if (near_volume) ++sheltered;
+    const double falls_s = fallsFor(drop, place, cell.near_volume);
+    if (falls_s <= 0.0 ||
+        (cell.near_volume && shelter.cameThrough(place, frames.path(cell.key.kind), time_s()))) {
+      if (cell.near_volume) ++sheltered;
       return true;
     }
     ends = endOf(falls_s, drop.end);
   }
-  const uint32_t slot =
-      drops.add(drop, static_cast<float>(candidate.chance), index, cells[index].bunch, ends, now());
-  if (slot == kNone) return false;
+  if (drops.add(drop, coming_drop.chance, index, cell.bunch, ends, now()) == kNone) return false;
   ++born;
   return true;
 }

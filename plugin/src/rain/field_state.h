@@ -49,6 +49,14 @@ struct Field::State {
   std::vector<RainDrop> fallen;            // stones that came down in this tick
   double keep = 1.0;                       // share of the law's drops that is born
   std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
+  // What a cell that is filled will hold, unless a volume kept it off.
+  struct Coming {
+    RainDrop drop;
+    double size = 0.0;
+    float chance = 0.0f;
+    const InTheAir* then = nullptr;
+  };
+  std::vector<Coming> coming;  // kept for its room
   uint64_t born = 0, died = 0, sheltered = 0, bounced = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
@@ -69,10 +77,10 @@ struct Field::State {
 
   // field_births.cpp: which drops a cell holds, and until when.
   void fillCell(uint32_t index);
-  void fillStanding(uint32_t index, const CellKey& key, bool& looked);
+  void findComing(const CellKey& key);
   const InTheAir& whenFallen(const CellKey& key, const Candidate& candidate) const;
   double chanceAt(double density_m3, uint32_t kind) const;
-  bool birth(uint32_t index, const CellKey& key, const Candidate& candidate, const InTheAir& then);
+  bool birth(uint32_t index, const Coming& coming_drop);
   double fallsFor(const RainDrop& drop, const glm::dvec3& place_m, bool near_volume);
   void bounce(const RainDrop& stone);
   void retest();

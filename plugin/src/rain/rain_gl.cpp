@@ -39,9 +39,8 @@ std::vector<uint32_t> rectangles() {
   return indices;
 }
 
-// Corners of the streaks of so many slots; beyond the last streak's, what its corners but the first read in
-// vain.
-size_t cornersOf(uint32_t slots) { return size_t{4} * groupsOf(slots) * shared::kRainDrawnGroup + 3; }
+// Corners of the streaks of so many slots, and one that the very last reads in vain.
+size_t cornersOf(uint32_t slots) { return size_t{4} * groupsOf(slots) * shared::kRainDrawnGroup + 1; }
 
 vec4 wide(const vec3& v) { return vec4(v, 0.0f); }
 
@@ -137,10 +136,9 @@ RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_dro
   vertices.bindIndices(corners.name());
   vertices.bindBuffer(0, drawn.name(), 0, sizeof(shared::RainCorner));
   vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(shared::RainCorner, place));
-  for (GLuint i = 0; i < 4; ++i) {
-    vertices.attribute(1 + i, 0, 4, GL_FLOAT,
-                       i * GLuint{sizeof(shared::RainCorner)} + GLuint{offsetof(shared::RainCorner, told)});
-  }
+  vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(shared::RainCorner, seen));
+  vertices.attribute(2, 0, 4, GL_FLOAT, offsetof(shared::RainCorner, told));
+  vertices.attribute(3, 0, 4, GL_FLOAT, sizeof(shared::RainCorner) + offsetof(shared::RainCorner, told));
 }
 
 void RainRenderer::Objects::send(std::span<const uint32_t> to, std::span<const RainDrop> drops) {
