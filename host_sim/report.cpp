@@ -61,7 +61,14 @@ void writeReport(const std::filesystem::path& file, const Report& r) {
                   {"died", r.rain.died},
                   {"sheltered_at_birth", r.rain.sheltered_at_birth},
                   {"shelter_tests", r.rain.shelter_tests},
-                  {"thinning", r.rain.thinning}};
+                  {"thinning", r.rain.thinning},
+                  {"snow_mm_h", r.rain.snow_mm_h},
+                  {"hail_mm_h", r.rain.hail_mm_h},
+                  {"live_snow", r.rain.live_snow},
+                  {"live_melting", r.rain.live_melting},
+                  {"live_hail", r.rain.live_hail},
+                  {"live_bounced", r.rain.live_bounced},
+                  {"bounced", r.rain.bounced}};
   json["panes"] = Json::array();
   for (const auto& [name, stats] : r.panes) json["panes"].push_back(pane(name, stats));
   json["rain_hash"] = hex(r.rain_hash);

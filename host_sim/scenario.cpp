@@ -115,6 +115,8 @@ void readDrive(Reader drive, DrivePlan& plan) {
 
 void readWeather(Reader weather, Scenario& s) {
   s.rain_mm_h = weather.curve("rain_mm_h", 0.0, 0.0, 300.0);
+  s.snow_mm_h = weather.curve("snow_mm_h", 0.0, 0.0, 300.0);
+  s.hail_mm_h = weather.curve("hail_mm_h", 0.0, 0.0, 300.0);
   s.wind_x_mps = weather.curve("wind_x_mps", 0.0, -100.0, 100.0);
   s.wind_y_mps = weather.curve("wind_y_mps", 0.0, -100.0, 100.0);
   s.temperature_c = weather.curve("temperature_c", 12.0, -60.0, 60.0);

@@ -34,7 +34,7 @@ struct Scenario {
   uint64_t seed = 1;
   std::filesystem::path car, road;  // empty: none
   DrivePlan plan;
-  Curve rain_mm_h{0.0};
+  Curve rain_mm_h{0.0}, snow_mm_h{0.0}, hail_mm_h{0.0};  // as water
   Curve wind_x_mps{0.0}, wind_y_mps{0.0};
   Curve temperature_c{12.0}, humidity{0.9};
   Curve visibility_m{20000.0};

@@ -55,6 +55,8 @@ Weather Simulation::weather() const {
   const double t = std::max(0.0, timeS());
   Weather w;
   w.rain_mm_h = overrides.rain_mm_h.value_or(scenario_.rain_mm_h.at(t));
+  w.snow_mm_h = overrides.snow_mm_h.value_or(scenario_.snow_mm_h.at(t));
+  w.hail_mm_h = overrides.hail_mm_h.value_or(scenario_.hail_mm_h.at(t));
   w.wind_mps =
       overrides.wind_mps.value_or(glm::dvec3(scenario_.wind_x_mps.at(t), scenario_.wind_y_mps.at(t), 0.0));
   w.temperature_c = scenario_.temperature_c.at(t);
@@ -115,6 +117,9 @@ void Simulation::tell() {
   const Weather w = weather();
   plugin_.api().default_weather(&m.weather);
   m.weather.rain_mm_h = w.rain_mm_h;
+  m.weather.snow_mm_h = w.snow_mm_h;
+  m.weather.hail_mm_h = w.hail_mm_h;
+  m.weather.ground_height_m = m.car.position_m.z;  // the road's, where the car stands on it
   for (int i = 0; i < 3; ++i) m.weather.wind_mps[i] = w.wind_mps[i];
   m.weather.temperature_c = w.temperature_c;
   m.weather.humidity = w.humidity;

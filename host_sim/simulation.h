@@ -34,14 +34,14 @@ struct FreeCamera {
 };
 
 struct Weather {
-  double rain_mm_h = 0.0;
+  double rain_mm_h = 0.0, snow_mm_h = 0.0, hail_mm_h = 0.0;
   glm::dvec3 wind_mps{0.0};
   double temperature_c = 12.0, humidity = 0.9, visibility_m = 20000.0;
 };
 
 // What a person changed in the window; the scenario's own value where there is none.
 struct Overrides {
-  std::optional<double> rain_mm_h;
+  std::optional<double> rain_mm_h, snow_mm_h, hail_mm_h;
   std::optional<glm::dvec3> wind_mps;
   std::optional<WiperMode> wipers;
   std::optional<Controls> controls;

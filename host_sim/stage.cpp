@@ -124,6 +124,8 @@ Sky Stage::sky(int64_t time_ns) const {
   const Weather w = simulation_->weather();
   Sky sky;
   sky.rain_mm_h = w.rain_mm_h;
+  sky.snow_mm_h = w.snow_mm_h;
+  sky.hail_mm_h = w.hail_mm_h;
   sky.visibility_m = w.visibility_m;
   sky.wetness = simulation_->wetness();
   sky.time_s = static_cast<double>(time_ns) * 1e-9;

@@ -189,7 +189,10 @@ void Overlay::drawStatus(Stage& stage, double fps, const char* note) const {
   if (!beginTable("status", 2)) return;
   row("speed", "%.0f km/h%s", sim.driver().state().speed_mps * 3.6,
       sim.overrides.controls ? ", by hand" : "");
-  row("rain", "%.1f mm/h", sim.weather().rain_mm_h);
+  const Weather now = sim.weather();
+  row("rain", "%.1f mm/h", now.rain_mm_h);
+  if (now.snow_mm_h > 0.0) row("snow", "%.1f mm/h as water", now.snow_mm_h);
+  if (now.hail_mm_h > 0.0) row("hail", "%.1f mm/h as water", now.hail_mm_h);
   windRow(sim);
   row("wipers", "%s", wiperModeName(sim.wiperMode()));
   row("camera", "%s", sim.camera.c_str());
@@ -244,12 +247,19 @@ void Overlay::drawWeather(Stage& stage) const {
   double rain_mm_h = sim.weather().rain_mm_h;
   if (slider("rain", rain_mm_h, 0.0, 200.0, "%.1f mm/h", ImGuiSliderFlags_Logarithmic))
     sim.overrides.rain_mm_h = rain_mm_h;
+  double snow_mm_h = sim.weather().snow_mm_h, hail_mm_h = sim.weather().hail_mm_h;
+  if (slider("snow", snow_mm_h, 0.0, 20.0, "%.1f mm/h", ImGuiSliderFlags_Logarithmic))
+    sim.overrides.snow_mm_h = snow_mm_h;
+  if (slider("hail", hail_mm_h, 0.0, 100.0, "%.1f mm/h", ImGuiSliderFlags_Logarithmic))
+    sim.overrides.hail_mm_h = hail_mm_h;
   glm::dvec2 from_mps = windByCar(sim);
   bool blown = slider("wind from ahead", from_mps.x, -40.0, 40.0, "%.1f m/s");
   blown |= slider("wind from the left", from_mps.y, -40.0, 40.0, "%.1f m/s");
   if (blown) setWindByCar(sim, from_mps);
   if (ImGui::Button("weather as the scenario says")) {
     sim.overrides.rain_mm_h.reset();
+    sim.overrides.snow_mm_h.reset();
+    sim.overrides.hail_mm_h.reset();
     sim.overrides.wind_mps.reset();
   }
   wiperChoice(sim.overrides);

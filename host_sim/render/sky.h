@@ -7,20 +7,22 @@ namespace host {
 
 /// The weather as far as light goes.
 struct Sky {
-  double rain_mm_h = 0.0;
-  double visibility_m = 40000.0;  ///< meteorological range without rain
-  double wetness = 0.0;           ///< of open ground, 0 dry .. 1 soaked
-  double time_s = 0.0;            ///< clouds drift with it
+  double rain_mm_h = 0.0, snow_mm_h = 0.0, hail_mm_h = 0.0;  ///< as water
+  double visibility_m = 40000.0;                             ///< meteorological range without rain
+  double wetness = 0.0;                                      ///< of open ground, 0 dry .. 1 soaked
+  double time_s = 0.0;                                       ///< clouds drift with it
   glm::vec3 to_sun{0.45F, 0.35F, 0.55F};
   bool operator==(const Sky&) const = default;
 };
 
 /// How far clouds close the sky, 0 clear .. 1 overcast: whole from 0.5 mm/h on.
 double cloudCover(const Sky& sky);
-/// Extinction of the air and its rain, 1/m: 3.912 / range (Koschmieder 1924, 2 % contrast) + 0.312 R^0.67 per
-/// km (Weber et al. 2015).
+/// Extinction of the air, its rain and its snow, 1/m: 3.912 / range (Koschmieder 1924, 2 % contrast) + 0.312
+/// R^0.67 per km (Weber et al. 2015) + 3.9 S^0.65 per km: a range of 1 km at 1 mm/h, between the extremes of
+/// a factor of 3 to 10 that Rasmussen et al. (1999) found (coefficients unsourced). Hail is too sparse to
+/// count.
 double extinction(const Sky& sky);
-/// Radiance of an overcast zenith, 1000 cd/m^2: darker the heavier the rain.
+/// Radiance of an overcast zenith, 1000 cd/m^2: darker the more falls.
 double overcastZenith(const Sky& sky);
 /// Irradiance on a plane across the sun's rays, 1000 lx, clouds counted.
 glm::vec3 sunIrradiance(const Sky& sky);

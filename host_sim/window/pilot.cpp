@@ -61,6 +61,9 @@ void Pilot::onKey(int key) {
     case GLFW_KEY_R:
       changeRain();
       break;
+    case GLFW_KEY_N:
+      nextPrecipitation();
+      break;
     case GLFW_KEY_V:
       changeWind({kWindStep_mps, 0.0});
       break;
@@ -69,6 +72,8 @@ void Pilot::onKey(int key) {
       break;
     case GLFW_KEY_0:
       o.rain_mm_h.reset();
+      o.snow_mm_h.reset();
+      o.hail_mm_h.reset();
       o.wind_mps.reset();
       break;
     case GLFW_KEY_1:
@@ -154,6 +159,16 @@ void Pilot::changeRain() {
   double next = shift() ? now / kStep : std::max(now, kLeast_mm_h / kStep) * kStep;
   if (next < kLeast_mm_h * 0.999) next = 0.0;
   sim_.overrides.rain_mm_h = std::min(next, kMost_mm_h);
+}
+
+// At rates that are heavy for each.
+void Pilot::nextPrecipitation() {
+  constexpr double kRain_mm_h = 20.0, kSnow_mm_h = 2.0, kHail_mm_h = 40.0;
+  const Weather now = sim_.weather();
+  const bool was_snow = now.snow_mm_h > 0.0, was_hail = !was_snow && now.hail_mm_h > 0.0;
+  sim_.overrides.rain_mm_h = was_hail ? kRain_mm_h : 0.0;
+  sim_.overrides.snow_mm_h = was_snow || was_hail ? 0.0 : kSnow_mm_h;
+  sim_.overrides.hail_mm_h = was_snow ? kHail_mm_h : 0.0;
 }
 
 void Pilot::changeWind(glm::dvec2 from_mps) {

@@ -19,6 +19,7 @@ inline constexpr KeyHelp kKeyHelp[] = {
     {"C", "next camera: cockpit, bumper, outside, front, side, free"},
     {"W A S D Q E", "move the free camera; drag to look round"},
     {"R, Shift R", "more, less rain"},
+    {"N", "what falls: rain, snow, hail in turn"},
     {"V, Shift V", "more, less wind from ahead"},
     {"B, Shift B", "more, less wind from the left"},
     {"0", "weather as the scenario says"},
@@ -54,6 +55,7 @@ class Pilot {
   void giveBack();
   void nextCamera();
   void changeRain();
+  void nextPrecipitation();
   void changeWind(glm::dvec2 from_mps);
   void moveFree(double seconds);
 

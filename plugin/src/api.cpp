@@ -102,10 +102,9 @@ T* checkOut(T* out, const char* name) {
 template <typename T>
 void writeStruct(T* out, T value, const char* name) {
   checkOut(out, name);
-  if (out->struct_size < sizeof(T) || out->struct_size > kLargestStruct)
-    refuse(std::string(name) + ".struct_size is wrong", RG_ERROR_BAD_STRUCT);
+  const size_t size = knownSize<T>(out->struct_size, name);
   value.struct_size = out->struct_size;
-  std::memcpy(out, &value, sizeof(T));
+  std::memcpy(out, &value, size);
 }
 
 glm::dvec3 finiteVector(const double v[3], const char* name) {
@@ -475,7 +474,9 @@ rg_result getRainStats(rg_instance* instance, rg_rain_stats* out) {
   return guarded(instance, [&](Frame& frame) {
     const rain::FieldStats s = frame.rainStats();
     rg_rain_stats r{};
-    r.rate_mm_h = s.rate_mm_h;
+    using rain::Hydrometeor;
+    const auto live = [&s](Hydrometeor h) { return s.live_of[static_cast<uint32_t>(h)]; };
+    r.rate_mm_h = s.rates[Hydrometeor::kRain];
     r.thinning = s.thinning;
     r.live = s.live;
     r.born = s.born;
@@ -483,6 +484,13 @@ rg_result getRainStats(rg_instance* instance, rg_rain_stats* out) {
     r.sheltered_at_birth = s.sheltered_at_birth;
     r.shelter_tests = s.shelter_tests;
     r.uploaded_bytes = s.uploaded_bytes;
+    r.snow_mm_h = s.rates[Hydrometeor::kSnow] + s.rates[Hydrometeor::kMeltingSnow];
+    r.hail_mm_h = s.rates[Hydrometeor::kHail];
+    r.live_snow = live(Hydrometeor::kSnow);
+    r.live_melting = live(Hydrometeor::kMeltingSnow);
+    r.live_hail = live(Hydrometeor::kHail);
+    r.live_bounced = live(Hydrometeor::kBouncedHail);
+    r.bounced = s.bounced;
     writeStruct(out, r, "rg_rain_stats");
   });
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "defaults.h"
+
 namespace rg {
 namespace {
 
@@ -50,15 +52,20 @@ VehicleState readVehicle(const rg_vehicle* in) {
 }
 
 WeatherState readWeather(const rg_weather* in) {
-  const rg_weather w = readStruct(in, "rg_weather");
+  rg_weather preset;
+  defaultWeather(&preset);
+  const rg_weather w = readStruct(in, "rg_weather", preset);
   checkRange(w.rain_mm_h, 0.0, 300.0, "rg_weather.rain_mm_h");
   checkRange(w.snow_mm_h, 0.0, 300.0, "rg_weather.snow_mm_h");
-  if (w.snow_mm_h != 0.0) refuse("rg_weather.snow_mm_h: this build has no snow", RG_ERROR_MISSING_FEATURE);
+  checkRange(w.hail_mm_h, 0.0, 300.0, "rg_weather.hail_mm_h");
+  checkRange(w.ground_height_m, -kFarthest_m, kFarthest_m, "rg_weather.ground_height_m");
   checkRange(w.temperature_c, -60.0, 60.0, "rg_weather.temperature_c");
   checkRange(w.humidity, 0.0, 1.0, "rg_weather.humidity");
   checkRange(w.visibility_m, 1.0, 1e6, "rg_weather.visibility_m");
-  return {w.rain_mm_h, readVector(w.wind_mps, kStrongestWind_mps, "rg_weather.wind_mps"), w.temperature_c,
-          w.humidity};
+  return {w.rain_mm_h,      readVector(w.wind_mps, kStrongestWind_mps, "rg_weather.wind_mps"),
+          w.temperature_c,  w.humidity,
+          w.snow_mm_h,      w.hail_mm_h,
+          w.ground_height_m};
 }
 
 glm::dmat4 readMatrix(const double m[16], const char* name) {

@@ -2,6 +2,7 @@
 // functions throw ApiError that names the field, and have no other effect.
 #pragma once
 
+#include <cstddef>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -15,18 +16,32 @@ namespace rg {
 inline constexpr uint32_t kLargestStruct =
     4096;  // bytes; a struct_size above this is a mistake, not a newer header
 
-// A struct of the first ABI version or a later, longer one; unknown fields at its end are ignored.
+// Size of a struct in the first header that had it: hosts may still be compiled against that.
 template <typename T>
-T readStruct(const T* in, const char* name) {
-  if (in == nullptr) refuse(std::string(name) + " is null");
-  if (in->struct_size < sizeof(T) || in->struct_size > kLargestStruct) {
-    refuse(std::string(name) + ".struct_size is " + std::to_string(in->struct_size) + ", must be " +
-               std::to_string(sizeof(T)) + " or what a later header says",
+inline constexpr size_t kFirstSize = sizeof(T);
+template <>
+inline constexpr size_t kFirstSize<rg_weather> = offsetof(rg_weather, hail_mm_h);
+template <>
+inline constexpr size_t kFirstSize<rg_rain_stats> = offsetof(rg_rain_stats, snow_mm_h);
+
+// How much of a struct of that size is known here: as the first header or this one says; a longer one's end
+// is a later header's. Refuses sizes that fit none.
+template <typename T>
+size_t knownSize(uint32_t struct_size, const char* name) {
+  if (struct_size != kFirstSize<T> && (struct_size < sizeof(T) || struct_size > kLargestStruct)) {
+    refuse(std::string(name) + ".struct_size is " + std::to_string(struct_size) + ", must be " +
+               std::to_string(sizeof(T)) + " or what another header says",
            RG_ERROR_BAD_STRUCT);
   }
-  T out;
-  std::memcpy(&out, in, sizeof(T));
-  return out;
+  return struct_size < sizeof(T) ? kFirstSize<T> : sizeof(T);
+}
+
+// A struct of any ABI version; what an older one lacks is as in `preset`.
+template <typename T>
+T readStruct(const T* in, const char* name, T preset = T{}) {
+  if (in == nullptr) refuse(std::string(name) + " is null");
+  std::memcpy(&preset, in, knownSize<T>(in->struct_size, name));
+  return preset;
 }
 
 // Element i of an array with a stride in bytes.

@@ -1,5 +1,7 @@
 #include "defaults.h"
 
+#include "tick.h"
+
 namespace rg {
 namespace {
 
@@ -36,6 +38,7 @@ void defaultWeather(rg_weather* out) {
   out->temperature_c = 12.0;
   out->humidity = 0.9;
   out->visibility_m = 40000.0;
+  out->ground_height_m = kNoGround_m;
 }
 
 void defaultView(rg_view* out) {

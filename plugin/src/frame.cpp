@@ -158,6 +158,7 @@ rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
 // To those who run the ticks.
 void Frame::tellSettings() {
   timeline_.setGusts({seed_, settings_.wind_gust_share, settings_.wind_gust_time_s});
+  timeline_.setByTemperature(settings_.precipitation_by_temperature >= 0.5);
   wind_profile_ = rain::WindProfile::of(settings_.wind_roughness_m, settings_.wind_height_m);
   field_.setWindProfile(wind_profile_);
   field_.setVisibility({settings_.rain_visibility_factor, settings_.rain_reference_px});

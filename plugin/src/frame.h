@@ -126,9 +126,12 @@ class Frame {
   bool started_ = false;
   int64_t next_tick_ = 0;
   int64_t prewarm_ticks_ = 0;
+  // What falls on the glass, as of `glass_rates_`, and of which class of the rain's each is.
   std::array<glass::SizeClass, glass::kMaxSizeClasses> classes_{};
+  std::array<uint32_t, glass::kMaxSizeClasses> class_of_{};
   uint32_t class_count_ = 0;
-  double classes_rate_mm_h_ = -1.0;
+  rain::Rates glass_rates_;
+  double glass_fall_mps_ = 0.0;  // typical of them; 0: not asked yet
 
   gl::Timers timers_;
   struct Stages {

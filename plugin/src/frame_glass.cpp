@@ -5,7 +5,7 @@
 
 #include "frame.h"
 #include "glass/pane_map.h"
-#include "rain/size_law.h"
+#include "rain/hydrometeors.h"
 
 namespace rg {
 namespace {
@@ -15,40 +15,89 @@ constexpr int64_t kShelterTicks =
     6;                          // shelter of a pane is asked anew 20 times a second: 1.4 m of way at 100 km/h
 constexpr int kSizeSteps = 16;  // quadrature of a class's mean volume
 
-// A class by its number, its speed and the diameter of its mean volume.
-glass::SizeClass sizeClass(const rain::SizeLaw& law, const rain::SpeedClass& c) {
+using rain::Hydrometeor;
+
+// A class by its number, its speed and the diameter of its mean volume: of flakes that of the drop they melt
+// to.
+glass::SizeClass sizeClass(const rain::InTheAir& air, uint32_t kind) {
   double cubes = 0.0;
-  for (int i = 0; i < kSizeSteps; ++i)
-    cubes += std::pow(law.quantile(c.from_mm, c.to_mm, (i + 0.5) / kSizeSteps), 3.0);
-  return {std::cbrt(cubes / kSizeSteps) * 1e-3, law.numberDensity(c.from_mm, c.to_mm), c.speed_mps,
+  for (int i = 0; i < kSizeSteps; ++i) cubes += std::pow(air.quantile(kind, (i + 0.5) / kSizeSteps), 3.0);
+  return {std::cbrt(cubes / kSizeSteps) * 1e-3, air.density_m3[kind], rain::fallClasses()[kind].speed_mps,
           glm::dvec3(0.0)};
 }
 
-uint32_t sizeClasses(double rate_mm_h, std::array<glass::SizeClass, glass::kMaxSizeClasses>& classes) {
-  const rain::SizeLaw law = rain::SizeLaw::of(rate_mm_h);
-  if (!(law.n0_per_m3_mm > 0.0)) return 0;
+double delivered_mps(const glass::SizeClass& c) {
+  return c.number_per_m3 * std::pow(c.diameter_m, 3.0) * glm::pi<double>() / 6.0 * c.fall_speed_mps;
+}
+
+// Of snow, a size's drift groups as one: beside each other they drift nowhere.
+glass::SizeClass flakesOfASize(const rain::InTheAir& air, uint32_t first) {
+  glass::SizeClass flakes = sizeClass(air, first);
+  flakes.number_per_m3 = flakes.fall_speed_mps = 0.0;
+  for (uint32_t kind = first; kind < first + rain::kDriftGroups; ++kind) {
+    flakes.number_per_m3 += air.density_m3[kind];
+    flakes.fall_speed_mps += rain::fallClasses()[kind].speed_mps / rain::kDriftGroups;
+  }
+  return flakes;
+}
+
+struct OnGlass {
+  std::array<glass::SizeClass, glass::kMaxSizeClasses>& classes;
+  std::array<uint32_t, glass::kMaxSizeClasses>& class_of;
   uint32_t count = 0;
-  double delivered_mps = 0.0;
-  for (const rain::SpeedClass& c : rain::speedClasses()) {
-    classes[count] = sizeClass(law, c);
-    delivered_mps += classes[count].number_per_m3 * std::pow(classes[count].diameter_m, 3.0) *
-                     glm::pi<double>() / 6.0 * classes[count].fall_speed_mps;
-    ++count;
+  void add(const glass::SizeClass& c, uint32_t kind) {
+    classes[count] = c;
+    class_of[count++] = kind;
   }
   // A class's drops all fall at its speed here; the rest of a per cent goes into the number, so that the
-  // delivered water is the asked rate.
-  const double scale = rate_mm_h / 3.6e6 / delivered_mps;
-  for (uint32_t i = 0; i < count; ++i) classes[i].number_per_m3 *= scale;
-  return count;
+  // water delivered by those from `first` on is the asked rate.
+  void scale(uint32_t first, double rate_mm_h) {
+    double sum_mps = 0.0;
+    for (uint32_t i = first; i < count; ++i) sum_mps += delivered_mps(classes[i]);
+    for (uint32_t i = first; i < count; ++i) classes[i].number_per_m3 *= rate_mm_h / 3.6e6 / sum_mps;
+  }
+};
+
+// Stones are not among them: they bounce off.
+void fillSizeClasses(const rain::Rates& rates, OnGlass& on_glass) {
+  const rain::InTheAir air = rain::InTheAir::of(rates);
+  const auto add = [&](Hydrometeor hydrometeor, uint32_t begin, uint32_t end, uint32_t step, auto&& made) {
+    if (!(rates[hydrometeor] > 0.0)) return;
+    const uint32_t first = on_glass.count;
+    for (uint32_t kind = begin; kind < end; kind += step) on_glass.add(made(air, kind), kind);
+    on_glass.scale(first, rates[hydrometeor]);
+  };
+  add(Hydrometeor::kRain, 0, rain::kFirstSnow, 1, sizeClass);
+  add(Hydrometeor::kSnow, rain::kFirstSnow, rain::kFirstMelting, rain::kDriftGroups, flakesOfASize);
+  add(Hydrometeor::kMeltingSnow, rain::kFirstMelting, rain::kFirstHail, 1, sizeClass);
+}
+
+// The fall of what brings the water: of rain that of the mean drop reaching the ground, of snow that of its
+// classes; together their mean by water.
+double typicalFall_mps(const rain::Rates& rates, const OnGlass& on_glass) {
+  const rain::SizeLaw law = rain::SizeLaw::of(std::max(rates[Hydrometeor::kRain], 0.1));
+  const double fall_mps = rain::fallSpeed(law.meanDiameterReachingGround_mm());
+  double water = rates[Hydrometeor::kRain] / 3.6e6, sum = water * fall_mps;
+  for (uint32_t i = 0; i < on_glass.count; ++i) {
+    if (on_glass.class_of[i] < rain::kFirstSnow) continue;
+    const double of_class = delivered_mps(on_glass.classes[i]);
+    water += of_class;
+    sum += of_class * on_glass.classes[i].fall_speed_mps;
+  }
+  return water > 0.0 ? sum / water : fall_mps;
 }
 
 }  // namespace
 
 void Frame::tickGlass(const Tick& tick) {
   if (panes_.empty()) return;
-  if (tick.weather.rain_mm_h != classes_rate_mm_h_) {
-    classes_rate_mm_h_ = tick.weather.rain_mm_h;
-    class_count_ = sizeClasses(classes_rate_mm_h_, classes_);
+  if (const rain::Rates rates = rain::ratesOf(tick.weather);
+      rates != glass_rates_ || glass_fall_mps_ == 0.0) {
+    glass_rates_ = rates;
+    OnGlass on_glass{classes_, class_of_};
+    fillSizeClasses(rates, on_glass);
+    class_count_ = on_glass.count;
+    glass_fall_mps_ = typicalFall_mps(rates, on_glass);
   }
   for (auto& [id, p] : panes_) {
     if (!p.active) continue;
@@ -67,7 +116,7 @@ void Frame::tickGlass(const Tick& tick) {
     t.classes = classes_;
     const glm::dvec3 wind_mps = vehicleFromWorld * tick.weather.wind_mps;
     for (uint32_t i = 0; i < class_count_; ++i)
-      t.classes[i].drift_mps = (wind_profile_.drop_share[i] - wind_profile_.air_share) * wind_mps;
+      t.classes[i].drift_mps = (wind_profile_.drop_share[class_of_[i]] - wind_profile_.air_share) * wind_mps;
     if (p.tick % kShelterTicks == 1) updateShelter(p, *vehicle, tick);
     t.wet_share = p.wet_share;
     for (const WiperMotion& w : tick.wipers) {
@@ -83,8 +132,7 @@ void Frame::tickGlass(const Tick& tick) {
 // pane's own car gives it no shelter: its cabin lies right behind the glass, and its roof is over it only
 // where the glass faces down.
 void Frame::updateShelter(PaneObject& p, const VehicleState& vehicle, const Tick& tick) {
-  const rain::SizeLaw law = rain::SizeLaw::of(std::max(tick.weather.rain_mm_h, 0.1));
-  const double fall_mps = rain::fallSpeed(law.meanDiameterReachingGround_mm());
+  const double fall_mps = glass_fall_mps_;
   const glm::dvec3 drop_mps =
       wind_profile_.dropShare(fall_mps) * tick.weather.wind_mps - glm::dvec3(0.0, 0.0, fall_mps);
   for (int region = 0; region < glass::kRegions; ++region) {

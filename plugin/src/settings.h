@@ -18,6 +18,7 @@ struct Settings {
   double wind_gust_time_s = 10.0;
   double wind_roughness_m = 0.0;
   double wind_height_m = 1.5;
+  double precipitation_by_temperature = 0.0;
   double time_catch_up_s = 5.0;
   double bench_repeat = 1.0;
 };
@@ -62,6 +63,9 @@ inline constexpr SettingInfo kSettings[] = {
     {"wind.height_m", "m", "wind",
      "of drops and glass above ground, where they have what wind.roughness_m leaves of the wind", 1.0, 10.0,
      &Settings::wind_height_m},
+    {"precipitation.by_temperature", "1", "precipitation",
+     "1: rain and snow together are shared out anew by temperature and humidity; 0: they fall as told", 0.0,
+     1.0, &Settings::precipitation_by_temperature},
     {"time.catch_up_s", "s", "time",
      "the longest stall that is caught up with; of a longer one the rest is left out", 0.1, 60.0,
      &Settings::time_catch_up_s},

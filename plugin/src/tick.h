@@ -38,11 +38,15 @@ struct VehicleState {
 
 inline constexpr double kStrongestWind_mps = 100.0;  // along an axis, as the ABI takes it
 
+inline constexpr double kNoGround_m = -1e8;  // a height that nothing falls to
+
 struct WeatherState {
   double rain_mm_h = 0.0;
   glm::dvec3 wind_mps{0.0};
   double temperature_c = 12.0;
   double humidity = 0.9;
+  double snow_mm_h = 0.0, hail_mm_h = 0.0;  // as water
+  double ground_height_m = kNoGround_m;     // round the views, world
 };
 
 struct ViewState {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rain/snow_law.h"
+
 namespace rg {
 namespace {
 
@@ -15,8 +17,13 @@ const T* byId(const std::vector<T>& items, uint32_t id) {
 }
 
 WeatherState between(const WeatherState& a, const WeatherState& b, double s) {
-  return {std::lerp(a.rain_mm_h, b.rain_mm_h, s), glm::mix(a.wind_mps, b.wind_mps, s),
-          std::lerp(a.temperature_c, b.temperature_c, s), std::lerp(a.humidity, b.humidity, s)};
+  return {std::lerp(a.rain_mm_h, b.rain_mm_h, s),
+          glm::mix(a.wind_mps, b.wind_mps, s),
+          std::lerp(a.temperature_c, b.temperature_c, s),
+          std::lerp(a.humidity, b.humidity, s),
+          std::lerp(a.snow_mm_h, b.snow_mm_h, s),
+          std::lerp(a.hail_mm_h, b.hail_mm_h, s),
+          std::lerp(a.ground_height_m, b.ground_height_m, s)};
 }
 
 Pose between(const Pose& a, const Pose& b, double s) {
@@ -62,6 +69,13 @@ ViewState viewBetween(const Sample& a, const ViewState& in_b, double s) {
   result.eyeFromWorld =
       in_b.discontinuity ? in_a->eyeFromWorld : between(in_a->eyeFromWorld, in_b.eyeFromWorld, s);
   return result;
+}
+
+// Rain and snow together, shared out anew by what the air makes of them.
+void shareOut(WeatherState& weather) {
+  const double both_mm_h = weather.rain_mm_h + weather.snow_mm_h;
+  weather.snow_mm_h = both_mm_h * rain::snowShare(weather.temperature_c, weather.humidity);
+  weather.rain_mm_h = both_mm_h - weather.snow_mm_h;
 }
 
 double shareBetween(const Sample& a, const Sample& b, int64_t time_ns) {
@@ -178,6 +192,7 @@ const Tick& Timeline::tick(int64_t index) {
   }
   WeatherState weather = between(a->weather, b->weather, s);
   weather.wind_mps = gusts_.at(index, weather.wind_mps);
+  if (by_temperature_) shareOut(weather);
   tick_ = {index, end_ns, weather, vehicles_, views_, wipers_};
   return tick_;
 }

@@ -41,6 +41,9 @@ class Timeline {
   // What the samples' wind swings by, from the next tick asked for on.
   void setGusts(const Gusts& gusts) { gusts_ = gusts; }
 
+  // Whether rain and snow are shared out anew by temperature and humidity, from the next tick asked for on.
+  void setByTemperature(bool by_temperature) { by_temperature_ = by_temperature; }
+
   // Inputs of the tick with this index; spans stay valid until the next call. Needs a sample.
   const Tick& tick(int64_t index);
 
@@ -61,6 +64,7 @@ class Timeline {
   std::pair<const Sample*, const Sample*> around(int64_t time_ns) const;
 
   Gusts gusts_;
+  bool by_temperature_ = false;
   std::vector<Sample> samples_;  // ascending
   std::map<uint32_t, std::vector<WiperKnot>> knots_;
   Tick tick_;

@@ -2,13 +2,19 @@
 #include "rain/streak.glsl"
 layout(binding = 1) uniform samplerCube environment;
 
-vec3 fromLamp(RainLamp lamp, vec3 drop, vec3 towards) {
-  vec3 way = drop - lamp.place_inner.xyz;
+vec3 irradianceOf(RainLamp lamp, vec3 drop, out vec3 way) {
+  way = drop - lamp.place_inner.xyz;
   float distance_m = max(length(way), 0.1);
   way /= distance_m;
   float outer = lamp.direction_outer.w;
   float cone = outer <= -1.0 ? 1.0 : smoothstep(outer, max(lamp.place_inner.w, outer + 1e-3), dot(way, lamp.direction_outer.xyz));
-  return lamp.intensity.rgb * (cone / (distance_m * distance_m) * rainPhase(dot(way, -towards)));
+  return lamp.intensity.rgb * (cone / (distance_m * distance_m));
+}
+
+vec3 fromLamp(RainLamp lamp, vec3 drop, vec3 towards) {
+  vec3 way;
+  vec3 irradiance = irradianceOf(lamp, drop, way);
+  return irradiance * rainPhase(dot(way, -towards));
 }
 
 // Mean radiance a drop shows. Its wide lens gathers 165 degrees of what lies behind it, so the finest it tells apart is which half of the
@@ -24,6 +30,23 @@ vec3 gathered(vec3 drop) {
   light = 0.94 * light + look.sun_irradiance.rgb * rainPhase(dot(towards, look.sun_direction.xyz));
   for (uint i = 0u; i < look.lamp_count; ++i) light += fromLamp(look.lamps[i], drop, towards);
   return light;
+}
+
+// Of what scatters all light alike to all sides: the mean of all round, but for what ice and its soot take (0.95: unsourced).
+vec3 scattered(vec3 drop) {
+  const float kPerSteradian = 0.0795775;  // 1 / 4 pi
+  vec3 light = 0.5 * (look.sky.rgb + look.ground.rgb) + kPerSteradian * look.sun_irradiance.rgb;
+  for (uint i = 0u; i < look.lamp_count; ++i) {
+    vec3 way;
+    light += kPerSteradian * irradianceOf(look.lamps[i], drop, way);
+  }
+  return 0.95 * light;
+}
+
+vec3 shown(vec3 drop, int is_of) {
+  float white = rainWhite(is_of);
+  vec3 light = white < 1.0 ? gathered(drop) : vec3(0.0);
+  return white > 0.0 ? mix(light, scattered(drop), white) : light;
 }
 
 vec3 asInTarget(vec3 radiance) {

@@ -34,14 +34,17 @@ struct Seen {
   vec4 depths_times;  // xy: its ends' depth along the view, m; zw: their times, -1 .. 1 over the whole exposure
   vec4 colour;        // rgb: as the target holds it; a: how much more than in nature it covers (1: as much)
   float radius_px_m;  // of the drop, px at 1 m
+  uint solid;         // rainSolidCode
 };
 
 // False when none of it is in the picture.
 bool seenOf(uint slot, out Seen result) {
-  result = Seen(vec4(0.0), vec4(0.0), vec4(0.0), 0.0);
+  result = Seen(vec4(0.0), vec4(0.0), vec4(0.0), 0.0, 0u);
   RainDrop drop = records[slot];
   if (drop.diameter_m <= 0.0) return false;
-  RainStreak streak = rainStreak(drop, classes[rainClassOf(drop)], rain_view);
+  RainClass its_class = classes[rainClassOf(drop)];
+  int is_of = its_class.base.w;
+  RainStreak streak = rainStreak(drop, its_class, rain_view);
   float depth = dot(streak.drop_m, look.forward.xyz);
   float approach = dot(streak.velocity_mps, look.forward.xyz);
   float from = streak.from_s, to = streak.to_s;
@@ -59,13 +62,14 @@ bool seenOf(uint slot, out Seen result) {
   float middle_m = 0.5 * (depths_m.x + depths_m.y);
   float exposure_s = rain_view.eye_velocity_exposure.w;
   float densest = rainDensest(distance(from_px, to_px) * exposure_s / (to - from), radius_px_m / middle_m);
-  vec3 light = asInTarget(gathered(streak.drop_m));
-  float gain = min(gainOf(from_px, to_px, light), max(1.0, kDensest / densest));
+  vec3 light = asInTarget(shown(streak.drop_m, is_of));
+  float gain = rainFilled(is_of) * min(gainOf(from_px, to_px, light), max(1.0, kDensest / densest));
   float focus = smoothstep(kRainNearest_m, kSharpFrom_m, middle_m);
   result.ends_px = vec4(from_px, to_px);
   result.depths_times = vec4(depths_m, vec2(from, to) * (2.0 / exposure_s));
   result.colour = vec4(light, gain * streak.fade * focus);
   result.radius_px_m = radius_px_m;
+  result.solid = rainSolidCode(is_of, drop.id);
   return true;
 }
 
@@ -86,7 +90,7 @@ void put(uint first, uint slot, Seen s) {
   vec4 colour = vec4(s.colour.rgb, s.colour.a * rainDwell(middle_px, times.y - times.x, length_px, pixel_half_px));
   vec2 from_per = 1.0 / vec2(depths_m.x, radii_px.x), to_per = 1.0 / vec2(depths_m.y, radii_px.y);
   drawn[first] =
-      RainCorner(vec4((from_px - side) * clip, from_stored, 1.0), vec4(0.0, -side_px, from_per), vec4(times, to_per.x, pixel_half_px));
+      RainCorner(vec4((from_px - side) * clip, from_stored, 1.0), vec4(0.0, -side_px, from_per), vec4(times, to_per.x, pixel_half_px + float(s.solid)));
   drawn[first + 1u] = RainCorner(vec4((from_px + side) * clip, from_stored, 1.0), vec4(0.0, side_px, from_per), colour);
   drawn[first + 2u] = RainCorner(vec4((to_px - side) * clip, to_stored, 1.0), vec4(1.0, -side_px, to_per), s.ends_px);
   drawn[first + 3u] = RainCorner(vec4((to_px + side) * clip, to_stored, 1.0), vec4(1.0, side_px, to_per), vec4(float(slot), 0.0, 0.0, 0.0));

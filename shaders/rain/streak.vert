@@ -7,7 +7,7 @@ layout(location = 3) in vec4 next_told;  // the next corner's: what is flat is t
 
 layout(location = 0) noperspective out vec4 streak_seen;  // as of RainCorner
 layout(location = 1) flat out vec4 streak_times;   // xy: of its ends, -1 .. 1 over the whole exposure; z: 1 / depth at its end, 1/m; w: half a pixel's
-                                                  // width across it, px
+                                                  // width across it, px (< 1), + rainSolidCode
 layout(location = 2) flat out vec4 streak_colour;  // rgb: as the target holds it; a: cover where it is densest
 
 out vec4 fed_back;  // for transform feedback; no stage takes it, so that the linker leaves it out else

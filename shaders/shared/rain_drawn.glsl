@@ -7,7 +7,7 @@
 // size gain the same brightness.
 #ifndef RG_SHARED_RAIN_DRAWN_GLSL
 #define RG_SHARED_RAIN_DRAWN_GLSL
-#include "shared/compat.glsl"
+#include "shared/rain_drop.glsl"
 RG_SHARED_BEGIN
 
 RG_CONST uint kRainDrawnGroup = 256u;  // slots a workgroup looks at, and one draw command draws
@@ -69,6 +69,28 @@ RG_FN float rainDwell(float radius_px, float times, float length_px, float pixel
 // The greatest tau/T, were pixels small, of a drop whose way over the whole exposure is `way_px` long.
 RG_FN float rainDensest(float way_px, float radius_px) {
   return 2.56f * radius_px / sqrt(max(way_px * way_px + 6.25f * radius_px * radius_px, 1.0e-18f));
+}
+
+// Flakes and stones near the eye have a shape of their own: flakes are octagons with lumps, stones disks, both soft at their rim. 0: a drop;
+// else 1 a flake, 2 a stone, and above the lowest two bits how its lumps lie.
+RG_FN uint rainSolidCode(int is_of, uint id) {
+  if (is_of == kRainIsRain) return 0u;
+  return is_of == kRainIsSnow || is_of == kRainIsMeltingSnow ? 1u | (id & 0xffu) << 2u : 2u;
+}
+
+// What rainShutter and rainWithin say of drops, of a solid at a point along its length (-1..1) and across it (in radii): by its sharp shape where
+// it is wide enough to be told, in pixels (1.5..3: unsourced). `squareness`: its width by its length.
+RG_FN float rainSolid(float as_drop, float along, float across, float squareness, float pixel_half_px, float radius_px, uint solid) {
+  float told = smoothstep(1.5f, 3.0f, radius_px);
+  if (told <= 0.0f) return as_drop;
+  bool is_flake = (solid & 3u) == 1u;
+  float ahead = max(abs(along) - (1.0f - squareness), 0.0f) / squareness, beside = abs(across);
+  float rim = is_flake ? max(max(ahead, beside), (ahead + beside) * 0.7071068f) : sqrt(ahead * ahead + beside * beside);
+  if (is_flake && squareness > 0.5f) rim *= 1.0f + 0.15f * rim * cos(3.0f * atan(across, along) + float(solid >> 2u) * (6.2831853f / 256.0f));
+  // Its mean over the rectangle, in closed form without the lumps, so that it covers as much as the drop would.
+  float mean = 0.75f * (1.0f - squareness) + (is_flake ? 0.476f : 0.452f) * squareness;
+  float shape = (1.0f - smoothstep(0.5f, 1.0f, rim)) * pixel_half_px / (mean * radius_px);
+  return mix(as_drop, shape, told);
 }
 
 RG_SHARED_END

@@ -1,7 +1,7 @@
 // How a streak looks: light, exposure and the view it is drawn into. One uniform block a draw.
 #ifndef RG_SHARED_RAIN_LOOK_GLSL
 #define RG_SHARED_RAIN_LOOK_GLSL
-#include "shared/compat.glsl"
+#include "shared/rain_drop.glsl"
 RG_SHARED_BEGIN
 
 RG_CONST uint kRainLamps = 16u;
@@ -46,6 +46,17 @@ RG_FN float rainSceneDepth(float stored, vec4 depth_rows, uint zero_to_one) {
 // The other way: what clip space's z is of clip w there.
 RG_FN float rainStoredDepth(float depth_m, vec4 depth_rows) {
   return (depth_rows.y - depth_rows.x * depth_m) / (depth_rows.w - depth_rows.z * depth_m);
+}
+
+// What a particle covers of the disk it is seen as. Aggregates of crystals are full of gaps: half (their area ratio is 0.3..0.6 in Heymsfield &
+// Miloshevich 2003).
+RG_FN float rainFilled(int is_of) { return is_of == kRainIsSnow || is_of == kRainIsMeltingSnow ? 0.5f : 1.0f; }
+
+// How much of the light it shows is scattered alike to all sides, as ice and its air do; the rest it gathers from behind, as water does
+// (unsourced for what is between).
+RG_FN float rainWhite(int is_of) {
+  if (is_of == kRainIsRain) return 0.0f;
+  return is_of == kRainIsMeltingSnow ? 0.5f : is_of == kRainIsSnow ? 1.0f : 0.9f;
 }
 
 // Henyey & Greenstein's phase function (1941), per steradian. Refraction sends most of a drop's light forward; 0.75 stands for it.

@@ -92,7 +92,8 @@ TEST_F(BadArguments, weatherThatIsNoNumberIsRefused) {
       {offsetof(rg_weather, rain_mm_h), offsetof(rg_weather, snow_mm_h), offsetof(rg_weather, wind_mps),
        offsetof(rg_weather, wind_mps) + 8, offsetof(rg_weather, wind_mps) + 16,
        offsetof(rg_weather, temperature_c), offsetof(rg_weather, humidity),
-       offsetof(rg_weather, visibility_m)},
+       offsetof(rg_weather, visibility_m), offsetof(rg_weather, hail_mm_h),
+       offsetof(rg_weather, ground_height_m)},
       [this](const rg_weather& w) { return updateWith([&](rg_sample& s) { s.weather = &w; }); });
 }
 

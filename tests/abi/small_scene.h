@@ -110,6 +110,10 @@ class SmallScene {
     rg_weather weather;
     api.default_weather(&weather);
     weather.rain_mm_h = rain_mm_h;
+    weather.snow_mm_h = snow_mm_h;
+    weather.hail_mm_h = hail_mm_h;
+    weather.temperature_c = temperature_c;
+    weather.ground_height_m = 0.0;
     rg_vehicle car;
     api.default_vehicle(&car);
     car.id = kCar;
@@ -168,7 +172,7 @@ class SmallScene {
   static constexpr int kSize_px = 64;
   const rg_api& api;
   const Habits habits;
-  double rain_mm_h = 100.0;
+  double rain_mm_h = 100.0, snow_mm_h = 0.0, hail_mm_h = 0.0, temperature_c = 12.0;
   rg_instance* instance = nullptr;
   rg_view view{};
   int64_t time_ns = 0;

@@ -151,6 +151,8 @@ TEST(Scenario, wrongInputIsNamedInOneLine) {
                                                         {"weather.rain_mm_h=nan", "rain_mm_h"},
                                                         {"weather.rain_mm_h=1e9", "rain_mm_h"},
                                                         {"weather.rain_mm_h=[[1,2],[1,3]]", "rain_mm_h"},
+                                                        {"weather.snow_mm_h=-1", "snow_mm_h"},
+                                                        {"weather.hail_mm_h=nan", "hail_mm_h"},
                                                         {"weather.reign=1", "reign"},
                                                         {"wipers=3", "wipers"},
                                                         {"camera=moon", "camera"},

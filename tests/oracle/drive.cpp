@@ -1,7 +1,7 @@
 #include "drive.h"
 
 #include "checks.h"
-#include "rain/size_law.h"
+#include "rain/hydrometeors.h"
 #include "scene/scene.h"
 
 namespace oracle {
@@ -84,8 +84,8 @@ void Drive::brake() {
 }
 
 glm::dvec3 Drive::dropVelocity(uint32_t kind) const {
-  return rain_.profile.drop_share[kind] * rain_.wind_mps -
-         glm::dvec3(0.0, 0.0, rg::rain::speedClasses()[kind].speed_mps);
+  const rg::rain::FallClass& c = rg::rain::fallClasses()[kind];
+  return rain_.profile.drop_share[kind] * rain_.wind_mps + glm::dvec3(c.drift_mps, -c.speed_mps);
 }
 
 rg::ViewState Drive::view() const {

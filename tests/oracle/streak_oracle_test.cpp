@@ -94,7 +94,7 @@ double expectedDrops(const Drive& drive, const rg::ViewState& view, std::mt19937
   const rg::rain::Visibility visibility;
   std::uniform_real_distribution<double> one(0.0, 1.0);
   double sum = 0.0;
-  for (uint32_t kind = 0; kind < rg::rain::kClasses; ++kind) {
+  for (uint32_t kind = 0; kind < rg::rain::kSpeedClasses; ++kind) {
     const rg::rain::SpeedClass& c = rg::rain::speedClasses()[kind];
     const double density = law.numberDensity(c.from_mm, c.to_mm);
     const glm::dvec3 velocity = drive.dropVelocity(kind);

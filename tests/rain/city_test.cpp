@@ -99,7 +99,7 @@ class CityField : public ::testing::Test {
 
 TEST_F(CityField, endsAndMissingDropsAreTheOracles) {
   Upload upload;
-  const SizeLaw law = SizeLaw::of(kRate_mm_h);
+  const InTheAir air = InTheAir::of(ratesOf(scene.weather));
   int compared = 0, end = 0, missing = 0;
   for (; scene.index <= 120; ++scene.index) {
     if (scene.index % 40 == 20) rebuild(60);
@@ -120,7 +120,7 @@ TEST_F(CityField, endsAndMissingDropsAreTheOracles) {
       ++compared;
       end += ends_s < kNever_s ? 1 : 0;
     }
-    for (const LiveDrop& d : standingDrops(kSeed, upload.picture, coneOf(scene.views[0]), law)) {
+    for (const LiveDrop& d : standingDrops(kSeed, upload.picture, coneOf(scene.views[0]), air)) {
       if (alive.contains(d.key)) continue;
       ++missing;
       ASSERT_TRUE(cameThroughAny(city, d, time_s(), 1.0)) << "tick " << scene.index;

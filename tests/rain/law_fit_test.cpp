@@ -56,11 +56,11 @@ class LawFit : public ::testing::TestWithParam<double> {
 TEST_P(LawFit, withinEachClass) {
   constexpr int kPictures = 200;
   const SizeLaw law = SizeLaw::of(GetParam());
-  std::array<std::vector<double>, kClasses> diameters_mm;
+  std::array<std::vector<double>, kSpeedClasses> diameters_mm;
   look(kPictures, [&](const std::vector<LiveDrop>& drops, const Cone&) {
     for (const LiveDrop& d : drops) diameters_mm[d.kind].push_back(1e3 * d.diameter_m);
   });
-  for (size_t kind = 0; kind < kClasses; ++kind) {
+  for (size_t kind = 0; kind < kSpeedClasses; ++kind) {
     const SpeedClass& c = speedClasses()[kind];
     ASSERT_GT(diameters_mm[kind].size(), 200U) << "class " << kind;
     EXPECT_LT(kolmogorov(diameters_mm[kind], law, c.from_mm, c.to_mm), kKolmogorov)
@@ -101,18 +101,18 @@ TEST_P(LawFit, ofAllSizesTogether) {
 TEST_P(LawFit, ofTheClassesNumbers) {
   constexpr int kPictures = 300;
   const SizeLaw law = SizeLaw::of(GetParam());
-  std::array<double, kClasses> seen{}, expected{};
+  std::array<double, kSpeedClasses> seen{}, expected{};
   look(kPictures, [&](const std::vector<LiveDrop>& drops, const Cone& cone) {
     for (const LiveDrop& d : drops) seen[d.kind] += inVolume(cone, d.place_m, d.reach_m()) ? 1.0 : 0.0;
-    for (size_t kind = 0; kind < kClasses; ++kind)
+    for (size_t kind = 0; kind < kSpeedClasses; ++kind)
       expected[kind] += expectedInView(law, kind, solidAngle(cone));
   });
   double chi_square = 0.0;
-  for (size_t kind = 0; kind < kClasses; ++kind) {
+  for (size_t kind = 0; kind < kSpeedClasses; ++kind) {
     ASSERT_GT(expected[kind], 20.0) << "class " << kind;
     chi_square += std::pow(seen[kind] - expected[kind], 2.0) / expected[kind];
   }
-  EXPECT_LT(chi_square, mostChiSquare(kClasses));
+  EXPECT_LT(chi_square, mostChiSquare(kSpeedClasses));
 }
 INSTANTIATE_TEST_SUITE_P(Rates, LawFit, ::testing::Values(5.0, 50.0), [](const auto& rate) {
   return "at" + std::to_string(static_cast<int>(rate.param)) + "mmh";

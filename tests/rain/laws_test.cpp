@@ -44,7 +44,7 @@ TEST_P(Density, ofEachSizeIsTheLaws) {
   const SizeLaw law = SizeLaw::of(motion.rate_mm_h);
   const double solid_angle = solidAngle(coneOf(scene.views[0]));
   std::array<double, kGroups> seen{}, in_a_picture{};
-  for (size_t kind = 0; kind < kClasses; ++kind)
+  for (size_t kind = 0; kind < kSpeedClasses; ++kind)
     in_a_picture[groupOf(static_cast<uint32_t>(kind))] += expectedInView(law, kind, solid_angle);
   const double rarest = *std::min_element(in_a_picture.begin(), in_a_picture.end());
   const int pictures = static_cast<int>(std::ceil(1.0 / (kStandardError * kStandardError * rarest)));
@@ -174,7 +174,7 @@ std::array<double, kFaces> fluxByTheLaw(const Cone& cone, const ViewState& view,
   std::array<double, kFaces> flux{};
   const double most_u = 1.0 / view.clipFromEye[0][0], most_v = 1.0 / view.clipFromEye[1][1];
   const glm::dmat3 worldFromEye = glm::transpose(glm::dmat3(view.eyeFromWorld));
-  for (size_t kind = 0; kind < kClasses; ++kind) {
+  for (size_t kind = 0; kind < kSpeedClasses; ++kind) {
     const dvec3 past = wind - dvec3(0, 0, speedClasses()[kind].speed_mps) - face_mps;
     double n_area = 0.0;  // sum of n R^2
     overSizes(law, kind, [&](double mm, double per_m3) {
@@ -367,7 +367,7 @@ TEST(Thinning, isTheSameForAllSizes) {
     const Cone cone = coneOf(scene.views[0]);
     for (const LiveDrop& d : drops)
       seen[groupOf(d.kind)] += inVolume(cone, d.place_m, d.reach_m()) ? 1.0 : 0.0;
-    for (uint32_t kind = 0; kind < kClasses; ++kind)
+    for (uint32_t kind = 0; kind < kSpeedClasses; ++kind)
       expected[groupOf(kind)] += kept * expectedInView(law, kind, solid_angle);
   }
   for (size_t g = 0; g < kGroups; ++g) {

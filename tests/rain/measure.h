@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "rain/hydrometeors.h"
 #include "rain/region.h"
-#include "rain/size_law.h"
 #include "scene.h"
 
 namespace rg::rain::test {
@@ -23,7 +23,11 @@ struct LiveDrop {
   uint32_t kind = 0;
   double diameter_m = 0.0;
   dvec3 place_m{0.0}, velocity_mps{0.0};  // world, at the picture's tick
-  double reach_m() const { return kReachPerDiameter * diameter_m; }
+  double reach_m() const {
+    const auto is_of = static_cast<int32_t>(fallClasses()[kind].hydrometeor);
+    return kReachPerDiameter * fallClasses()[kind].seen *
+           std::min(diameter_m, static_cast<double>(shared::rainReachDiameter(is_of)));
+  }
 };
 
 inline LiveDrop liveDropOf(const RainDrop& d, const Picture& picture) {

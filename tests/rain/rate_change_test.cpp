@@ -39,7 +39,7 @@ double reachOf(size_t kind) { return kReachPerDiameter * 1e-3 * speedClasses()[k
 // Space seen by a class, by band and by how long its drops fall there from the ceiling, in ticks.
 class SeenSpace {
  public:
-  explicit SeenSpace(const ViewState& view) : m3_(kClasses * kHeights * kTicks, 0.0) {
+  explicit SeenSpace(const ViewState& view) : m3_(kSpeedClasses * kHeights * kTicks, 0.0) {
     constexpr int kAcross = 32, kDeep = 32;
     const double most_u = 1.0 / view.clipFromEye[0][0], most_v = 1.0 / view.clipFromEye[1][1];
     const glm::dmat3 worldFromEye = glm::transpose(glm::dmat3(view.eyeFromWorld));
@@ -50,7 +50,7 @@ class SeenSpace {
       const double patch_sr =
           4.0 * most_u * most_v / (kAcross * kAcross) * std::pow(1.0 + u * u + v * v, -1.5);
       const double up = (worldFromEye * glm::normalize(dvec3(u, v, -1.0))).z;
-      for (size_t kind = 0; kind < kClasses; ++kind)
+      for (size_t kind = 0; kind < kSpeedClasses; ++kind)
         add(kind, up * deep * reachOf(kind), patch_sr * std::pow(reachOf(kind), 3) / 3.0 / kDeep);
     }
   }
@@ -74,7 +74,7 @@ using Series = std::array<std::array<double, kTicks>, kHeights>;
 // What the law says: at each place the density of the rate that was when its drops fell through the ceiling.
 Series expectedOf(const Course& course, const SeenSpace& space) {
   Series expected{};
-  for (size_t kind = 0; kind < kClasses; ++kind) {
+  for (size_t kind = 0; kind < kSpeedClasses; ++kind) {
     const SpeedClass& c = speedClasses()[kind];
     std::array<double, kTicks> density_m3{};
     for (size_t t = 0; t < kTicks; ++t)

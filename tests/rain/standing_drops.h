@@ -9,15 +9,15 @@
 
 namespace rg::rain::test {
 
-// All drops that the standing field holds within the view's volume, sheltered or not.
+// All drops that the standing field holds within the view's volume, sheltered or not; of many one of so many.
 inline std::vector<LiveDrop> standingDrops(uint64_t seed, const Picture& picture, const Cone& cone,
-                                           const SizeLaw& law) {
+                                           const InTheAir& air, uint32_t one_of = 1) {
   std::vector<LiveDrop> found;
-  for (uint32_t kind = 0; kind < kClasses; ++kind) {
+  for (uint32_t kind = 0; kind < kBouncedClass; ++kind) {
     const ClassLattice& lattice = classLattices()[kind];
-    const double density = law.numberDensity(speedClasses()[kind].from_mm, speedClasses()[kind].to_mm);
+    const double density = air.density_m3[kind];
     const glm::ivec3 eye(glm::floor((cone.eye_m - picture.classes[kind].origin_m) / lattice.cell_m));
-    const int far = static_cast<int>(kReachPerDiameter * 1e-3 * lattice.drops.to_mm / lattice.cell_m) + 2;
+    const int far = static_cast<int>(kReachPerDiameter * 1e-3 * lattice.reach_mm / lattice.cell_m) + 2;
     for (int x = -far; x <= far; ++x) {
       for (int y = -far; y <= far; ++y) {
         for (int z = -far; z <= far; ++z) {
@@ -25,10 +25,11 @@ inline std::vector<LiveDrop> standingDrops(uint64_t seed, const Picture& picture
           Candidates candidates(seed, key);
           const double least = std::exp(-density * lattice.cell_m3);
           for (const Candidate* c = &candidates.next(); c->chance > least; c = &candidates.next()) {
+            if (c->id % one_of != 0) continue;
             LiveDrop d;
             d.key = {kind, key.x, key.y, key.z, c->id};
             d.kind = kind;
-            d.diameter_m = 1e-3 * law.quantile(lattice.drops.from_mm, lattice.drops.to_mm, c->size);
+            d.diameter_m = 1e-3 * drawnDiameter_mm(lattice.drops.hydrometeor, air.quantile(kind, c->size));
             const dvec3 fraction = (dvec3(c->fraction_x, c->fraction_y, c->fraction_z) + 0.5) / 65536.0;
             d.place_m =
                 picture.classes[kind].origin_m + (dvec3(key.x, key.y, key.z) + fraction) * lattice.cell_m;

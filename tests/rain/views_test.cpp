@@ -36,7 +36,8 @@ std::set<DropKey> keysInView(Field& field, const ViewState& view) {
 double dropsInView(double rain_mm_h, const ViewState& view) {
   const SizeLaw law = SizeLaw::of(rain_mm_h);
   double sum = 0.0;
-  for (size_t kind = 0; kind < kClasses; ++kind) sum += expectedInView(law, kind, solidAngle(coneOf(view)));
+  for (size_t kind = 0; kind < kSpeedClasses; ++kind)
+    sum += expectedInView(law, kind, solidAngle(coneOf(view)));
   return sum;
 }
 

@@ -37,7 +37,9 @@ TEST(Report, holdsWhatItPromises) {
     EXPECT_LE(json["stages"][stage]["cpu_ms"]["p50"], json["stages"][stage]["cpu_ms"]["p99"]) << stage;
   }
   EXPECT_GT(json["stages"]["rain_draw"]["gpu_ms"]["p50"], 0.0);
-  for (const char* key : {"rate_mm_h", "live", "born", "died", "sheltered_at_birth", "shelter_tests"})
+  for (const char* key :
+       {"rate_mm_h", "live", "born", "died", "sheltered_at_birth", "shelter_tests", "snow_mm_h", "hail_mm_h",
+        "live_snow", "live_melting", "live_hail", "live_bounced", "bounced"})
     EXPECT_TRUE(json["rain"].contains(key)) << key;
   EXPECT_EQ(json["rain"]["rate_mm_h"], 10.0);
   ASSERT_FALSE(json["panes"].empty());

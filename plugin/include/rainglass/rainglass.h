@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 0u
+#define RG_ABI_MINOR 1u
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -158,12 +158,20 @@ typedef struct rg_weather {
   uint32_t struct_size;
   uint32_t reserved;
   double rain_mm_h;     /* 0 .. 300; default 0 */
-  double snow_mm_h;     /* water equivalent; other than 0: RG_ERROR_MISSING_FEATURE in this build */
+  double snow_mm_h;     /* as water, 0 .. 300; default 0. Beside rain it is sleet; from 0 to +2 deg C flakes
+                           melt as they fall: smaller, faster and paler. Parameter precipitation.by_temperature
+                           shares rain and snow out anew by temperature and humidity. On panes flakes melt at
+                           once,     as on heated, wiped glass: each is caught as the drop of its water */
   double wind_mps[3];   /* velocity of the air, world axes, each within +-100; default 0. Gusts swing about it
                            (parameter wind.gust_share); at drops and glass, or at 10 m (wind.roughness_m) */
   double temperature_c; /* -60 .. 60; default 12 */
   double humidity;      /* relative, 0 .. 1; default 0.9 */
   double visibility_m;  /* meteorological range without rain, 1 .. 1e6; default 40000 */
+  /* Since minor 1. */
+  double hail_mm_h; /* as water, 0 .. 300; default 0. Stones of 5 .. 30 mm bounce once, off the ground and off
+                       volumes, and leave nothing on panes */
+  double ground_height_m; /* of the ground round the views, world z, within +-1e8: where stones bounce;
+                             default -1e8, none */
 } rg_weather;
 
 /* One eye's picture. The same struct tells update which volumes will be looked into and draw what to draw. */
@@ -342,12 +350,19 @@ typedef struct rg_capture_info {
 typedef struct rg_rain_stats {
   uint32_t struct_size;
   uint32_t reserved;
-  double rate_mm_h;
-  double thinning; /* share of drops that exist, 1 = all */
-  uint64_t live, born, died;
+  double rate_mm_h;            /* of rain */
+  double thinning;             /* share of drops that exist, 1 = all */
+  uint64_t live, born, died;   /* drops, flakes and stones */
   uint64_t sheltered_at_birth; /* drops of the field that a volume kept from being born at all */
   uint64_t shelter_tests;      /* drop-against-volume tests done */
   uint64_t uploaded_bytes;
+  /* Since minor 1. */
+  double snow_mm_h, hail_mm_h;
+  uint64_t live_snow;    /* of live: flakes, */
+  uint64_t live_melting; /* flakes that melt, */
+  uint64_t live_hail;    /* stones that fall, */
+  uint64_t live_bounced; /* and that have bounced */
+  uint64_t bounced;      /* stones so far */
 } rg_rain_stats;
 
 /* The ledger of a pane, mL since it was made or reset. caught = on_glass + drained + wiped + blown +

@@ -58,7 +58,7 @@ void Border::follow(const Sought& sought, const ClassFrames& frames) {
   }
   for (auto& view : views_) {
     if (view->told) continue;
-    for (uint32_t kind = 0; kind < kSpeedClasses; ++kind)
+    for (uint32_t kind = 0; kind < kClasses; ++kind)
       replaceRows(view->rows[view->current][kind], RowSet{}, kind);
   }
   std::erase_if(views_, [](const auto& view) { return !view->told; });
@@ -83,16 +83,18 @@ void Border::followView(FollowedView& view, const ViewState& told, const Sought&
   const uint32_t before = view.current, after = 1 - before;
   view.current = after;
   view.streak_m = 0.0;
-  for (uint32_t kind = 0; kind < kSpeedClasses; ++kind) {
+  for (uint32_t kind = 0; kind < kClasses; ++kind) {
     RowSet &was = view.rows[before][kind], &is = view.rows[after][kind];
     const dvec3 past = frames.velocity(kind) - velocity;
     Margin margin;
     margin.ahead_m = past * (1.25 * kTickSeconds);  // a quarter to spare
     margin.streak_m = past * (0.5 * exposureOf(told));
-    view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
-    const double reach = sought.reach_per_diameter * 1e-3 * classLattices()[kind].drops.to_mm;
-    margin.sides_m = 0.02 + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
-    margin.reach_m = reach + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
+    if (sought.classes[kind]) view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
+    const double reach = sought.reach_per_diameter * 1e-3 * classLattices()[kind].reach_mm,
+                 swing_m = classLattices()[kind].swing_m;
+    margin.sides_m =
+        0.02 + swing_m + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
+    margin.reach_m = reach + swing_m + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
     if (sought.classes[kind])
       findRows(cone, margin, (cone.eye_m - frames.origin(kind)) / cell_m(kind), cell_m(kind), is);
     replaceRows(was, is, kind);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -25,14 +26,14 @@ struct FollowedView {
   glm::dquat worldFromEye{1, 0, 0, 0};
   double streak_m = 0.0;  // of the longest streak, from the drop to its end
   uint32_t current = 0;
-  std::array<std::array<RowSet, kSpeedClasses>, 2> rows;
+  std::array<std::array<RowSet, kClasses>, 2> rows;
 };
 
 // What a tick's views look for.
 struct Sought {
   std::span<const ViewState> views;
-  double reach_per_diameter = 1.0;            // drops are seen as far as this times their diameter
-  std::array<bool, kSpeedClasses> classes{};  // that may have drops: the others have no cells
+  double reach_per_diameter = 1.0;  // drops are seen as far as this times their diameter
+  std::bitset<kClasses> classes;    // that may have drops: the others have no cells
 };
 
 // The border's cells are blocks of 2^level cells of the standing lattice along each axis, so that there are
@@ -70,7 +71,7 @@ class Border {
   Cells& cells_;
   uint32_t level_ = 0;
   std::vector<std::unique_ptr<FollowedView>> views_;
-  std::array<uint32_t, kSpeedClasses> cells_of_{};
+  std::array<uint32_t, kClasses> cells_of_{};
   std::vector<uint32_t> entered_, left_;
   std::vector<CellKey> released_;  // by a view in this tick
 };

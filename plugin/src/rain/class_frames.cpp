@@ -9,6 +9,16 @@ namespace rg::rain {
 
 using glm::dvec3;
 
+namespace {
+
+// Beside the wind's.
+dvec3 ownVelocity(uint32_t kind) {
+  const FallClass& c = classLattices()[kind].drops;
+  return {c.drift_mps.x, c.drift_mps.y, -c.speed_mps};
+}
+
+}  // namespace
+
 // What carries the lattice must stay a number: one NaN would stop the rain for good.
 dvec3 usableWind(const Tick& tick) {
   const dvec3& wind = tick.weather.wind_mps;
@@ -45,7 +55,7 @@ bool ClassFrames::advance(double time_s, const dvec3& wind_mps) {
 
 bool ClassFrames::setProfile(const WindProfile& profile) {
   if (profile.drop_share == profile_.drop_share) return false;
-  for (uint32_t kind = 0; kind < kSpeedClasses; ++kind)
+  for (uint32_t kind = 0; kind < kClasses; ++kind)
     moved_m_[kind] += (profile_.drop_share[kind] - profile.drop_share[kind]) * wind_.carried_m();
   profile_ = profile;
   forgetPaths();
@@ -53,12 +63,12 @@ bool ClassFrames::setProfile(const WindProfile& profile) {
 }
 
 dvec3 ClassFrames::velocity(uint32_t kind) const {
-  return profile_.drop_share[kind] * wind_.wind_mps() - dvec3(0, 0, classLattices()[kind].drops.speed_mps);
+  return profile_.drop_share[kind] * wind_.wind_mps() + ownVelocity(kind);
 }
 
 dvec3 ClassFrames::origin(uint32_t kind) const {
-  return origin_m_ + moved_m_[kind] + profile_.drop_share[kind] * wind_.carried_m() -
-         dvec3(0, 0, classLattices()[kind].drops.speed_mps * time_s_);
+  return origin_m_ + moved_m_[kind] + profile_.drop_share[kind] * wind_.carried_m() +
+         ownVelocity(kind) * time_s_;
 }
 
 void ClassFrames::forgetPaths() {
@@ -74,7 +84,7 @@ const ClassPath& ClassFrames::path(uint32_t kind) {
 }
 
 void ClassFrames::findPath(uint32_t kind, ClassPath& path) const {
-  const double fall = classLattices()[kind].drops.speed_mps, share = profile_.drop_share[kind];
+  const double share = profile_.drop_share[kind];
   const double longest_s = Shelter::kPath_m / std::max(glm::length(velocity(kind)), 0.1);
   path.pieces[0] = {0.0, longest_s, dvec3(0.0), velocity(kind)};
   path.count = 1;
@@ -83,7 +93,7 @@ void ClassFrames::findPath(uint32_t kind, ClassPath& path) const {
   for (uint32_t i = 0; i < past_.count && until > -longest_s; ++i) {
     const WindPath::Piece& then = past_.stretches[i];
     const double begin = i + 1 == past_.count ? -longest_s : std::max(then.from_s - time_s_, -longest_s);
-    const dvec3 v = share * then.wind_mps - dvec3(0, 0, fall);
+    const dvec3 v = share * then.wind_mps + ownVelocity(kind);
     to_m += v * (begin - until);
     path.pieces[path.count++] = {begin, until, to_m, v};
     until = begin;

@@ -44,10 +44,10 @@ class ClassFrames {
   WindPath wind_;  // of the stated wind; a class has its share
   WindProfile profile_;
   double time_s_ = 0.0;
-  glm::dvec3 origin_m_{0.0};                         // of all, without wind and fall
-  std::array<glm::dvec3, kSpeedClasses> moved_m_{};  // by changes of the profile
-  WindPath::Past past_;                              // count 0: not asked for in this tick
-  std::array<ClassPath, kSpeedClasses> paths_;       // count 0: as well
+  glm::dvec3 origin_m_{0.0};                    // of all, without wind and fall
+  std::array<glm::dvec3, kClasses> moved_m_{};  // by changes of the profile
+  WindPath::Past past_;                         // count 0: not asked for in this tick
+  std::array<ClassPath, kClasses> paths_;       // count 0: as well
 };
 
 }  // namespace rg::rain

@@ -41,18 +41,20 @@ void Field::State::start(const Tick& t) {
     tick = t.index;
     frames.resume(usableWind(t));
   }
-  rate.fill(t.weather.rain_mm_h);
+  rate.fill(ratesOf(t.weather));
   shelter.restart();
   drops.startCalendar(now());
   running = true;
 }
 
 void Field::State::moveTo(const Tick& t) {
-  for (; tick < t.index; ++tick) rate.add(t.weather.rain_mm_h);
+  const Rates rates = ratesOf(t.weather);
+  for (; tick < t.index; ++tick) rate.add(rates);
 }
 
 void Field::State::forgetCells() {
   clearCells();
+  followed.reset();
   running = false;
 }
 
@@ -60,6 +62,7 @@ void Field::State::clearCells() {
   drops.clear();
   cells.clear();
   border.clear(Border::levelFor(reachPerDiameter()));
+  bounced_cell = kNone;
 }
 
 void Field::tick(const Tick& t) {
@@ -74,8 +77,10 @@ void Field::tick(const Tick& t) {
     s.moveTo(t);
     gust = s.frames.advance(s.time_s(), usableWind(t)) || gust;
   }
+  s.ground_m = std::isfinite(t.weather.ground_height_m) ? t.weather.ground_height_m : kNoGround_m;
   changes = s.shelter.advance(s.time_s(), t.vehicles);
   if (s.border.level() != Border::levelFor(s.reachPerDiameter())) s.clearCells();
+  s.findClasses();
   s.followViews(t);
   s.emptyLeftCells();
   s.expireDrops();
@@ -84,11 +89,18 @@ void Field::tick(const Tick& t) {
   s.fillEnteredCells();
 }
 
+// Classes of which there is nothing cost nothing. What sets in does so from the ceiling down: the air above
+// it, where nobody looked before, is still as empty as it was.
+void Field::State::findClasses() {
+  for (uint32_t kind = 0; kind < kClasses; ++kind) {
+    const bool is_about = kind != kBouncedClass && isAbout(kind);
+    set_in.set(kind, is_about && !followed.test(kind));
+    followed.set(kind, is_about);
+  }
+}
+
 void Field::State::followViews(const Tick& t) {
-  Sought sought{t.views, reachPerDiameter()};
-  for (uint32_t kind = 0; kind < kClasses; ++kind)
-    sought.classes[kind] = rate.wettest().density_m3[kind] > 0.0 || drops.liveOf(kind) > 0;
-  border.follow(sought, frames);
+  border.follow({t.views, reachPerDiameter(), followed}, frames);
   ceiling_m = -1e30;
   for (const auto& view : border.views()) {
     if (view->moved) ceiling_m = std::max(ceiling_m, view->eye_m.z + kCeilingAboveEye_m);
@@ -108,23 +120,25 @@ void Field::State::emptyLeftCells() {
 }
 
 void Field::State::fillEnteredCells() {
-  for (uint32_t kind = 0; kind < kClasses; ++kind)
-    least_chance[kind] = chanceAt(rate.wettest().density_m3[kind], kind);
+  for (uint32_t kind = 0; kind < kClasses; ++kind) least_chance[kind] = chanceAt(rate.most_m3(kind), kind);
   for (const uint32_t cell : border.entered()) fillCell(cell);
 }
 
 void Field::State::expireDrops() {
   drops.expire(now(), [&](uint32_t slot) {
+    if (isOf(shared::rainClassOf(drops[slot]), Hydrometeor::kHail)) fallen.push_back(drops[slot]);
     drops.remove(slot, cells[drops.cellOf(slot)].bunch);
     ++died;
   });
+  for (const RainDrop& stone : fallen) bounce(stone);
+  fallen.clear();
 }
 
 // Keeps the expected number of drops below the buffer's size, by the same share everywhere.
 void Field::State::thin() {
   double expected = 0.0;
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
-    expected += border.cellsOf(kind) * std::pow(border.cell_m(kind), 3) * rate.wettest().density_m3[kind];
+    expected += border.cellsOf(kind) * std::pow(border.cell_m(kind), 3) * rate.most_m3(kind);
   }
   const double room = kFilled * drops.capacity();
   const double wanted = expected > room ? room / expected : 1.0;
@@ -136,8 +150,7 @@ void Field::State::thin() {
   }
   keep = wanted < 1.0 ? wanted * (1.0 - kThinningStep) : 1.0;
   std::array<double, kClasses> least{};
-  for (uint32_t kind = 0; kind < kClasses; ++kind)
-    least[kind] = chanceAt(rate.wettest().density_m3[kind], kind);
+  for (uint32_t kind = 0; kind < kClasses; ++kind) least[kind] = chanceAt(rate.most_m3(kind), kind);
   for (uint32_t slot = 0; slot < drops.end(); ++slot) {
     if (!drops.alive(slot)) continue;
     const uint32_t kind = shared::rainClassOf(drops[slot]);
@@ -172,7 +185,7 @@ void Field::reset() {
   state_->forgetCells();
   state_->started = false;
   state_->keep = 1.0;
-  state_->born = state_->died = state_->sheltered = 0;
+  state_->born = state_->died = state_->sheltered = state_->bounced = 0;
   state_->tests_before = state_->shelter.tests();
 }
 
@@ -194,9 +207,19 @@ void Field::rebase(const dvec3& shift_m) {
 
 FieldStats Field::stats() const {
   const State& s = *state_;
-  return {
-      s.started ? s.rate.now().law.rate_mm_h : 0.0, s.keep,    s.drops.live(), s.born, s.died, s.sheltered,
-      s.shelter.tests() - s.tests_before,           s.uploaded};
+  FieldStats stats;
+  if (s.started) stats.rates = s.rate.now().rates;
+  stats.thinning = s.keep;
+  stats.live = s.drops.live();
+  for (uint32_t kind = 0; kind < kClasses; ++kind)
+    stats.live_of[static_cast<uint32_t>(fallClasses()[kind].hydrometeor)] += s.drops.liveOf(kind);
+  stats.born = s.born;
+  stats.died = s.died;
+  stats.bounced = s.bounced;
+  stats.sheltered_at_birth = s.sheltered;
+  stats.shelter_tests = s.shelter.tests() - s.tests_before;
+  stats.uploaded_bytes = s.uploaded;
+  return stats;
 }
 
 uint64_t Field::hash() const {

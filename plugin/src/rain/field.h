@@ -1,9 +1,13 @@
-// The field of falling drops round the views: who lives, where, and until when.
+// The field of falling drops, flakes and stones ("drops" all of them below) round the views: who lives,
+// where, and until when.
 //
 // In the frame that moves with a class's fall speed and the wind, the drops of that class are a standing
 // Poisson field, hashed by (seed, class, cell). A drop is born when its cell comes into a view's volume and
 // dies when the cell has left all of them, or when its path meets a shelter. Where it is at any time is
 // closed form, so a tick costs births + deaths + cells at the border, not drops alive.
+//
+// A hailstone that comes down bounces once: from then it is a drop of its own, in no cell of a view, which
+// ends where it comes down again. Those are the only drops that depend on which others were followed.
 //
 // State depends on the ticks alone: same seed, same objects, same ticks, same drops. The lattice of cells has
 // its origin where the first vehicle (without one, the first view's eye) stands at the first tick after
@@ -11,11 +15,13 @@
 // scene played elsewhere in the world, or at another hour, sees the same rain.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "rain/hydrometeors.h"
 #include "rain/picture.h"
 #include "rain/volume.h"
 #include "rain/wind_profile.h"
@@ -29,16 +35,19 @@ struct FieldSettings {
 };
 
 struct FieldStats {
-  double rate_mm_h = 0.0;
+  Rates rates;            // as of the last tick
   double thinning = 1.0;  // share of the law's drops that exist; 1 = all
   uint64_t live = 0, born = 0, died = 0;
+  std::array<uint64_t, kHydrometeors> live_of{};  // of `live`
+  uint64_t bounced = 0;                           // stones so far; they are of `born` too
   uint64_t sheltered_at_birth = 0;  // drops of the field that a volume kept from being born at all
   uint64_t shelter_tests = 0;       // drop-against-volume tests done
   uint64_t uploaded_bytes = 0;      // handed out by publish()
 };
 
 // How far drops are drawn: a drop of diameter D is a particle to the distance `visibility_factor *
-// reference_px * D` and fades before it.
+// reference_px * D` and fades before it. Flakes count as no larger than 5 mm for it, stones than 12
+// (shared::rainReachDiameter), and of ten flakes seven are drawn half as far.
 struct Visibility {
   double factor = 1.25;  // 0.25 .. 4; 1: until it is one reference pixel wide
   double reference_px =

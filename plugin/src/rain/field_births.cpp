@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rain/bounce.h"
 #include "rain/field_state.h"
 
 namespace rg::rain {
@@ -38,7 +39,7 @@ void Field::State::fillCell(uint32_t index) {
     }
   }
   if (coming.empty()) return;
-  for (Coming& c : coming) c.drop.diameter_m = c.then->diameter_m(block.kind, c.size);
+  for (Coming& c : coming) c.drop.diameter_m = diameterOf_m(*c.then, block.kind, c.size);
   cells[index].near_volume = lookAround(block, true);
   for (const Coming& c : coming) {
     if (!birth(index, c)) return;
@@ -49,7 +50,7 @@ void Field::State::findComing(const CellKey& key) {
   const double least = least_chance[key.kind];
   Candidates candidates(settings.seed, key);
   for (const Candidate* c = &candidates.next(); c->chance > least; c = &candidates.next()) {
-    const RateHistory::Entry& then = rate.steady() ? rate.now() : whenFallen(key, *c);
+    const InTheAir& then = rate.steady() ? rate.now() : whenFallen(key, *c);
     if (!rate.steady() && c->chance <= chanceAt(then.density_m3[key.kind], key.kind)) continue;
     coming.push_back({RainDrop{key.x, key.y, key.z, c->fraction_x | c->fraction_y << 16,
                                c->fraction_z | key.kind << 16, 0.0f, 0, c->id},
@@ -58,10 +59,11 @@ void Field::State::findComing(const CellKey& key) {
 }
 
 // What rain there is where a drop is was decided when it fell through the ceiling.
-const RateHistory::Entry& Field::State::whenFallen(const CellKey& key, const Candidate& candidate) const {
+const InTheAir& Field::State::whenFallen(const CellKey& key, const Candidate& candidate) const {
   const ClassLattice& lattice = classLattices()[key.kind];
   const double z = frames.origin(key.kind).z + (key.z + candidate.fraction_z * 0x1p-16) * lattice.cell_m;
-  const double delay = std::max(0.0, ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz);
+  const double fallen_ticks = (ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz),
+               delay = std::max(set_in.test(key.kind) ? 1.0 : 0.0, fallen_ticks);
   return rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
 }
 
@@ -76,15 +78,15 @@ bool Field::State::birth(uint32_t index, const Coming& coming_drop) {
   RainDrop drop = coming_drop.drop;
   drop.end = now() + kEndless;
   bool ends = false;
-  if (cell.near_volume) {
+  if (cell.near_volume || isOf(cell.key.kind, Hydrometeor::kHail)) {
     const dvec3 place = placeOf(drop);
-    const ClassPath& path = frames.path(cell.key.kind);
-    const double enters_s = shelter.willEnter(place, path, time_s());
-    if (enters_s <= 0.0 || shelter.cameThrough(place, path, time_s())) {
-      ++sheltered;
+    const double falls_s = fallsFor(drop, place, cell.near_volume);
+    if (falls_s <= 0.0 ||
+        (cell.near_volume && shelter.cameThrough(place, frames.path(cell.key.kind), time_s()))) {
+      if (cell.near_volume) ++sheltered;
       return true;
     }
-    ends = endOf(enters_s, drop.end);
+    ends = endOf(falls_s, drop.end);
   }
   if (drops.add(drop, coming_drop.chance, index, cell.bunch, ends, now()) == kNone) return false;
   ++born;
@@ -98,6 +100,15 @@ dvec3 Field::State::placeOf(const RainDrop& drop) const {
                                    classLattices()[kind].cell_m;
 }
 
+// Until it comes into a volume; a stone also: onto the ground, as that is told now.
+double Field::State::fallsFor(const RainDrop& drop, const dvec3& place, bool near_volume) {
+  const uint32_t kind = shared::rainClassOf(drop);
+  const double enters_s = near_volume ? shelter.willEnter(place, frames.path(kind), time_s()) : kNever_s;
+  if (!isOf(kind, Hydrometeor::kHail)) return enters_s;
+  const double above_m = place.z - 0.5 * static_cast<double>(drop.diameter_m) - ground_m;
+  return std::min(enters_s, above_m / classLattices()[kind].drops.speed_mps);
+}
+
 // Rounded down, so that the drop does not outlive its entry.
 bool Field::State::endOf(double after_s, uint32_t& end) const {
   const bool ends = after_s < kLongestEnd_s;
@@ -105,12 +116,33 @@ bool Field::State::endOf(double after_s, uint32_t& end) const {
   return ends;
 }
 
+// A stone that came down flies on as a drop of its own.
+void Field::State::bounce(const RainDrop& stone) {
+  const uint32_t kind = shared::rainClassOf(stone);
+  const double ago_s = static_cast<double>(now() - stone.end) * kTickSeconds / kEndUnits;
+  const dvec3 velocity = frames.velocity(kind);
+  const Impact impact{placeOf(stone) - velocity * ago_s, velocity, static_cast<double>(stone.diameter_m),
+                      ago_s, stone.id};
+  const Flight flight = flightAfter(impact, ground_m, shelter, time_s());
+  if (flight.lasts_s <= ago_s) return;
+  const uint32_t end = stone.end + static_cast<uint32_t>(flight.lasts_s * kTickHz * kEndUnits);
+  const RainDrop drop = recordOf(flight, impact.diameter_m, frames.origin(kBouncedClass), stone.end, end);
+  if (drop.diameter_m == 0.0f || static_cast<int32_t>(end - now()) <= 0) return;
+  bool is_fresh = false;
+  if (bounced_cell == kNone) bounced_cell = cells.acquire({0, 0, 0, kBouncedClass}, is_fresh);
+  constexpr float kAlways = 2.0f;  // as chance: it is there, however much is thinned
+  const uint32_t slot = drops.add(drop, kAlways, bounced_cell, cells[bounced_cell].bunch, true, now());
+  if (slot == kNone) return;
+  ++born;
+  ++bounced;
+}
+
 // What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked
 // again where they end, also in cells that were not near a volume before. Where they came from has not
 // changed: drops that never were stay so.
 void Field::State::retest() {
   for (uint32_t index = 0; index < cells.poolSize(); ++index) {
-    if (cells[index].views > 0 && cells[index].bunch != kNone) retestCell(index);
+    if (cells[index].views > 0 && cells[index].bunch != kNone && index != bounced_cell) retestCell(index);
   }
 }
 
@@ -120,12 +152,10 @@ void Field::State::retestCell(uint32_t index) {
   if (!near_volume && !cell.near_volume) return;
   cell.near_volume = near_volume;
   drops.forEach(cell.bunch, [&](uint32_t slot) {
-    const double enters_s =
-        near_volume ? shelter.willEnter(placeOf(drops[slot]), frames.path(cell.key.kind), time_s())
-                    : kNever_s;
+    const double falls_s = fallsFor(drops[slot], placeOf(drops[slot]), near_volume);
     uint32_t end = 0;
-    const bool ends = endOf(enters_s, end);
-    if (enters_s <= 0.0) {
+    const bool ends = endOf(falls_s, end);
+    if (falls_s <= 0.0) {
       drops.remove(slot, cell.bunch);
       ++died;
     } else if (ends != drops.ends(slot) || (ends && end != drops[slot].end)) {

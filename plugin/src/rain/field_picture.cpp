@@ -20,17 +20,20 @@ void Field::State::describe(Picture& picture) const {
   picture.slot_end = drops.end();
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
     picture.classes[kind] = {frames.origin(kind), frames.velocity(kind), classLattices()[kind].cell_m,
-                             reachPerDiameter()};
+                             reachPerDiameter() * classLattices()[kind].drops.seen};
   }
   picture.volumes.clear();
   std::vector<dvec3> eyes;
-  double streak_m = 0.0;
+  double streak_m = 0.0, reach_mm = kLargest_mm;
+  for (uint32_t kind = 0; kind < kClasses; ++kind) {
+    if (isAbout(kind)) reach_mm = std::max(reach_mm, classLattices()[kind].reach_mm);
+  }
   for (const auto& view : border.views()) {
     if (!view->moved) continue;
     eyes.push_back(view->eye_m);
     streak_m = std::max(streak_m, view->streak_m);
   }
-  shelter.near(eyes, reachPerDiameter() * 1e-3 * kLargest_mm + streak_m + kGoneOn_m, picture.volumes);
+  shelter.near(eyes, reachPerDiameter() * 1e-3 * reach_mm + streak_m + kGoneOn_m, picture.volumes);
 }
 
 void Field::publish(Upload& upload) {

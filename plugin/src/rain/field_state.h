@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -18,9 +19,15 @@ namespace rg::rain {
 
 inline constexpr uint32_t kEndUnits = 1024;  // of a tick, as shared::kRainEndUnits
 
+inline bool isOf(uint32_t kind, Hydrometeor hydrometeor) {
+  return fallClasses()[kind].hydrometeor == hydrometeor;
+}
+
 struct Field::State {
   explicit State(const FieldSettings& given)
-      : settings(given), drops(std::clamp(given.capacity, 1000u, 4000000u)), border(cells) {}
+      : settings(given), drops(std::clamp(given.capacity, 1000u, 4000000u)), border(cells) {
+    fallen.reserve(1u << 12);
+  }
 
   FieldSettings settings;
   Visibility visibility;
@@ -36,27 +43,33 @@ struct Field::State {
   bool running = false;  // since the last seek a tick has been
   int64_t epoch = 0, tick = 0;
   double ceiling_m = 0.0;
-  double keep = 1.0;                            // share of the law's drops that is born
+  double ground_m = kNoGround_m;
+  std::bitset<kClasses> followed, set_in;  // classes in this tick; of those the ones that were not before
+  uint32_t bounced_cell = kNone;           // in which bounced stones hang
+  std::vector<RainDrop> fallen;            // stones that came down in this tick
+  double keep = 1.0;                       // share of the law's drops that is born
   std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
   // What a cell that is filled will hold, unless a volume kept it off.
   struct Coming {
     RainDrop drop;
     double size = 0.0;
     float chance = 0.0f;
-    const RateHistory::Entry* then = nullptr;
+    const InTheAir* then = nullptr;
   };
   std::vector<Coming> coming;  // kept for its room
-  uint64_t born = 0, died = 0, sheltered = 0, uploaded = 0, tests_before = 0;
+  uint64_t born = 0, died = 0, sheltered = 0, bounced = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
   uint32_t now() const { return static_cast<uint32_t>(static_cast<uint64_t>(tick - epoch) * kEndUnits); }
   double reachPerDiameter() const { return visibility.factor * visibility.reference_px; }
+  bool isAbout(uint32_t kind) const { return rate.most_m3(kind) > 0.0 || drops.liveOf(kind) > 0; }
 
   void start(const Tick& t);
   void moveTo(const Tick& t);
   void forgetCells();
   void clearCells();
   void fillEnteredCells();
+  void findClasses();
   void followViews(const Tick& t);
   void emptyLeftCells();
   void expireDrops();
@@ -65,9 +78,11 @@ struct Field::State {
   // field_births.cpp: which drops a cell holds, and until when.
   void fillCell(uint32_t index);
   void findComing(const CellKey& key);
-  const RateHistory::Entry& whenFallen(const CellKey& key, const Candidate& candidate) const;
+  const InTheAir& whenFallen(const CellKey& key, const Candidate& candidate) const;
   double chanceAt(double density_m3, uint32_t kind) const;
   bool birth(uint32_t index, const Coming& coming_drop);
+  double fallsFor(const RainDrop& drop, const glm::dvec3& place_m, bool near_volume);
+  void bounce(const RainDrop& stone);
   void retest();
   void retestCell(uint32_t index);
   glm::dvec3 cellMiddle(const CellKey& key) const;

@@ -6,6 +6,7 @@
 #include "rain/motion.h"
 #include "rain/region.h"
 #include "rain/size_law.h"
+#include "rain/standing.h"
 
 namespace rg::rain {
 namespace {
@@ -69,15 +70,17 @@ void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns
   const double known_m = setUpShelter(picture, eye, after_s, out.shelter);
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
     const ClassPicture& c = picture.classes[kind];
+    const ClassLattice& lattice = classLattices()[kind];
     const dvec3 corner = c.origin_m + c.velocity_mps * after_s;
     const dvec3 base = glm::clamp(glm::floor((eye - corner) / c.cell_m), dvec3(-2e9), dvec3(2e9));
     out.classes[kind].corner_cell = vec4(vec3(corner + base * c.cell_m - eye), static_cast<float>(c.cell_m));
     // Where a volume may be that cannot be told, no streak is drawn: half of it reaches beyond its drop.
     const double half_m = 0.5 * exposureOf(view) * glm::length(c.velocity_mps - eyeVelocityOf(view)),
-                 known_reach = std::max(known_m - half_m, 1e-3) / (1e-3 * speedClasses()[kind].to_mm);
+                 known_reach =
+                     std::max(known_m - half_m, 1e-3) / (1e-3 * lattice.reach_mm / lattice.drops.seen);
     out.classes[kind].velocity_reach =
         vec4(vec3(c.velocity_mps), static_cast<float>(std::min(c.reach_per_diameter, known_reach)));
-    out.classes[kind].base = glm::ivec4(glm::ivec3(base), 0);
+    out.classes[kind].base = glm::ivec4(glm::ivec3(base), static_cast<int32_t>(lattice.drops.hydrometeor));
   }
   out.view.eye_velocity_exposure = vec4(vec3(eyeVelocityOf(view)), static_cast<float>(exposureOf(view)));
   const double units =

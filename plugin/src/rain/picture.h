@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "rain/hydrometeors.h"
 #include "rain/volume.h"
 #include "shared/rain_streak.glsl"
 #include "tick.h"
@@ -14,7 +15,6 @@
 namespace rg::rain {
 
 using shared::RainDrop;
-inline constexpr uint32_t kClasses = shared::kRainClasses;
 
 // A class's standing frame at the picture's tick.
 struct ClassPicture {

@@ -355,6 +355,33 @@ bool Shelter::openToSky(const dvec3& place, const dvec3& velocity, uint32_t with
   return true;
 }
 
+bool Shelter::surfaceAt(const dvec3& place, double ago_s, double within, Surface& out) {
+  if (list_.empty()) return false;
+  bool found = false;
+  const auto consider = [&](const Convex& shape, const Pose& pose) {
+    const dvec3 local = intoBody(pose, place);
+    double outside = -1e30;
+    const Plane* face = nullptr;
+    for (const Plane& plane : shape.planes) {
+      const double d = glm::dot(plane.normal, local) - plane.d;
+      if (d > outside) outside = d, face = &plane;
+    }
+    if (std::abs(outside) > within || (found && std::abs(outside) >= std::abs(out.outside_m))) return;
+    found = true;
+    out = {pose.orientation * face->normal,
+           pose.velocity_mps + glm::cross(pose.angular_velocity_radps, place - pose.position_m), outside};
+  };
+  met_.clear();
+  if (!nodes_.empty()) gatherStatic(place, dvec3(within), {});
+  for (const uint32_t i : met_) consider(list_[i]->shape, Pose{});
+  for (const auto& [id, body] : bodies_) {
+    if (!body.known) continue;
+    const Pose pose = movedOn(body.path.pose(), -ago_s);
+    for (const uint32_t i : body.volumes) consider(list_[i]->shape, pose);
+  }
+  return found;
+}
+
 void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearVolume>& out) const {
   const auto closeTo = [&](auto&& gap) {
     return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; });

@@ -27,6 +27,13 @@ struct PathPiece {
   glm::dvec3 velocity_mps{0.0};
 };
 
+// What a stone hits: unit normal out of it, its velocity there, and how far outside of it the place is.
+struct Surface {
+  glm::dvec3 normal{0, 0, 1};
+  glm::dvec3 velocity_mps{0.0};
+  double outside_m = 0.0;
+};
+
 // The path of a class: the first piece is the way to come, the others the way it came, newest first.
 struct ClassPath {
   static constexpr uint32_t kMost = 1 + WindPath::Past::kMost;
@@ -65,6 +72,10 @@ class Shelter {
   // Whether rain that falls with `velocity_mps` reaches a place: no volume, as they stand now, lies up-stream
   // of it. Volumes of the body `without` do not count (a pane lies against its own cabin).
   bool openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without);
+
+  // The face of a volume that a place within `within_m` of it touches, as things stood `ago_s` before the
+  // last advance(); of several volumes the nearest. False, and `out` as it was, when there is none.
+  bool surfaceAt(const glm::dvec3& place_m, double ago_s, double within_m, Surface& out);
 
   uint64_t tests() const { return tests_; }
   void clearTests() { tests_ = 0; }

@@ -4,20 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "rain/exponential.h"
+
 namespace rg::rain {
 namespace {
 
 constexpr double kAtlasTop = 9.65, kAtlasFall = 10.3, kAtlasRate_per_mm = 0.6;
-
-// Integral of D^n exp(-a D) from x to y, by parts.
-double moment(int n, double a, double x, double y) {
-  double sum = 0.0, factor = 1.0 / a;
-  for (int k = n; k >= 0; --k) {
-    sum += factor * (std::pow(x, k) * std::exp(-a * x) - std::pow(y, k) * std::exp(-a * y));
-    factor *= k / a;
-  }
-  return sum;
-}
 
 // Integral of D^n v(D) exp(-a D).
 double movingMoment(int n, double a, double x, double y) {
@@ -93,9 +85,7 @@ double SizeLaw::meanDiameterReachingGround_mm() const {
 }
 
 double SizeLaw::quantile(double from_mm, double to_mm, double u) const {
-  if (!(slope_per_mm > 0.0)) return from_mm;
-  const double part = -std::expm1(-slope_per_mm * (to_mm - from_mm));
-  return std::clamp(from_mm - std::log1p(-u * part) / slope_per_mm, from_mm, to_mm);
+  return rain::quantile(slope_per_mm, from_mm, to_mm, u);
 }
 
 double visibility_m(double rate_mm_h) {

@@ -4,11 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "shared/rain_streak.glsl"
-
 namespace rg::rain {
 
-inline constexpr uint32_t kSpeedClasses = shared::kRainClasses;
+inline constexpr uint32_t kSpeedClasses = 32;
 inline constexpr double kSmallest_mm =
     0.5;  // of the drops that are counted (physics of rain, normative table)
 inline constexpr double kLargest_mm = 6.0;

@@ -56,56 +56,72 @@ const Candidate& Candidates::next() {
   return candidate_;
 }
 
-const std::array<ClassLattice, kSpeedClasses>& classLattices() {
-  static const std::array<ClassLattice, kSpeedClasses> lattices = [] {
-    std::array<ClassLattice, kSpeedClasses> made;
-    for (uint32_t i = 0; i < kSpeedClasses; ++i) {
-      made[i].drops = speedClasses()[i];
+const std::array<ClassLattice, kClasses>& classLattices() {
+  static const std::array<ClassLattice, kClasses> lattices = [] {
+    std::array<ClassLattice, kClasses> made;
+    for (uint32_t i = 0; i < kClasses; ++i) {
+      ClassLattice& lattice = made[i];
+      lattice.drops = fallClasses()[i];
+      lattice.largest_mm = drawnDiameter_mm(lattice.drops.hydrometeor, lattice.drops.to_mm);
+      const bool swings = lattice.drops.hydrometeor == Hydrometeor::kSnow ||
+                          lattice.drops.hydrometeor == Hydrometeor::kMeltingSnow;
+      if (swings) lattice.swing_m = static_cast<double>(shared::kRainSwing) * 1e-3 * lattice.largest_mm;
+      const auto hydrometeor = static_cast<int32_t>(lattice.drops.hydrometeor);
+      lattice.reach_mm =
+          lattice.drops.seen *
+          std::min(lattice.largest_mm, 1e3 * static_cast<double>(shared::rainReachDiameter(hydrometeor)));
       // Rounded, so that the last digits of a machine's exp and log do not decide where drops are.
-      made[i].drops.speed_mps = std::round(made[i].drops.speed_mps * 0x1p20) * 0x1p-20;
-      made[i].cell_m =
-          std::round(kReferenceReach_per_m * 1e-3 * made[i].drops.to_mm / kCellsPerReach * 0x1p20) * 0x1p-20;
-      made[i].cell_m3 = made[i].cell_m * made[i].cell_m * made[i].cell_m;
+      lattice.cell_m =
+          std::round(kReferenceReach_per_m * 1e-3 * lattice.reach_mm / kCellsPerReach * 0x1p20) * 0x1p-20;
+      if (i == kBouncedClass) lattice.cell_m = 0x1p-12;
+      lattice.cell_m3 = lattice.cell_m * lattice.cell_m * lattice.cell_m;
     }
     return made;
   }();
   return lattices;
 }
 
-RateHistory::Entry RateHistory::entryOf(double rate_mm_h) {
-  Entry entry;
-  entry.law = SizeLaw::of(rate_mm_h);
-  entry.per_slope_mm = entry.law.slope_per_mm > 0.0 ? 1.0 / entry.law.slope_per_mm : 0.0;
-  for (uint32_t i = 0; i < kSpeedClasses; ++i) {
-    const SpeedClass& c = speedClasses()[i];
-    entry.density_m3[i] = entry.law.numberDensity(c.from_mm, c.to_mm);
-    entry.from_mm[i] = c.from_mm;
-    entry.part[i] = -std::expm1(-entry.law.slope_per_mm * (c.to_mm - c.from_mm));
-  }
-  return entry;
+float diameterOf_m(const InTheAir& air, uint32_t kind, double size) {
+  const FallClass& c = fallClasses()[kind];
+  const double slope = air.slope_per_mm[static_cast<uint32_t>(c.hydrometeor)];
+  const double mm = slope > 0.0 ? c.from_mm - portableLog(1.0 - size * air.part[kind]) / slope : c.from_mm;
+  const double across_mm = drawnDiameter_mm(c.hydrometeor, mm);
+  return static_cast<float>(static_cast<double>(static_cast<int64_t>(across_mm * 1e4 + 0.5)) * 1e-7);
 }
 
-// As SizeLaw::quantile, for a thousandth of what diameters are rounded to.
-float RateHistory::Entry::diameter_m(uint32_t kind, double size) const {
-  const double mm = from_mm[kind] - portableLog(1.0 - size * part[kind]) * per_slope_mm;
-  return static_cast<float>(static_cast<double>(static_cast<int64_t>(mm * 1e4 + 0.5)) * 1e-7);
-}
-
-void RateHistory::fill(double rate_mm_h) {
-  ring_.fill(entryOf(rate_mm_h));
-  now_ = wettest_ = 0;
+void RateHistory::fill(const Rates& rates) {
+  ring_.fill(InTheAir::of(rates));
+  now_ = 0;
   steady_ = kTicks;
+  most_m3_ = ring_[0].density_m3;
+  most_of_block_.fill(most_m3_);
 }
 
-void RateHistory::add(double rate_mm_h) {
+void RateHistory::add(const Rates& rates) {
   const uint32_t before = now_;
   now_ = (now_ + 1) % kTicks;
-  const bool same = SizeLaw::of(rate_mm_h).rate_mm_h == ring_[before].law.rate_mm_h;
+  const bool same = rates == ring_[before].rates;
   if (same && steady()) return;  // all entries are alike
-  ring_[now_] = same ? ring_[before] : entryOf(rate_mm_h);
+  ring_[now_] = same ? ring_[before] : InTheAir::of(rates);
   steady_ = same ? steady_ + 1 : 1;
-  for (uint32_t i = 0; i < kTicks; ++i) {
-    if (ring_[i].law.rate_mm_h > ring_[wettest_].law.rate_mm_h) wettest_ = i;
+  noteMost();
+}
+
+// A block that is being written anew keeps the most of what was in it until it is full.
+void RateHistory::noteMost() {
+  Densities& block = most_of_block_[now_ / kBlock];
+  if ((now_ + 1) % kBlock == 0) {
+    block.fill(0.0);
+    for (uint32_t i = now_ + 1 - kBlock; i <= now_; ++i) {
+      for (uint32_t kind = 0; kind < kClasses; ++kind)
+        block[kind] = std::max(block[kind], ring_[i].density_m3[kind]);
+    }
+  }
+  for (uint32_t kind = 0; kind < kClasses; ++kind)
+    block[kind] = std::max(block[kind], ring_[now_].density_m3[kind]);
+  most_m3_.fill(0.0);
+  for (const Densities& of : most_of_block_) {
+    for (uint32_t kind = 0; kind < kClasses; ++kind) most_m3_[kind] = std::max(most_m3_[kind], of[kind]);
   }
 }
 

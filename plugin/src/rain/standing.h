@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "rain/cells.h"
-#include "rain/size_law.h"
+#include "rain/hydrometeors.h"
 
 namespace rg::rain {
 
@@ -34,40 +34,47 @@ class Candidates {
 
 // What is fixed about a class: its drops and its cells.
 struct ClassLattice {
-  SpeedClass drops;
+  FallClass drops;
+  double largest_mm = 0.0;  // across, as drawn
+  double swing_m = 0.0;     // of flakes about their way, as drawn
+  double reach_mm = 0.0;    // how far it is seen goes by this: largest_mm, or less
   double cell_m = 1.0;
   double cell_m3 = 1.0;
 };
 // Cells are a sixth of how far the class's largest drops are seen at visibility factor 1.25: small enough to
 // follow the view's edge (they add about a half to its drops), large enough that a view's border has few.
-const std::array<ClassLattice, kSpeedClasses>& classLattices();
+// Bounced stones stand in a lattice of 1/4096 m that is at rest: its cells are places.
+const std::array<ClassLattice, kClasses>& classLattices();
 
-// Densities of all classes as the rate was over the last seconds: rain that sets in fills the sky from above.
+// What a candidate's particle measures across, in whole tenths of a micrometre, so that the last digit of a
+// machine's logarithm does not show.
+float diameterOf_m(const InTheAir& air, uint32_t kind, double size);
+
+// Densities of all classes as the rates were over the last seconds: rain that sets in fills the sky from
+// above.
 class RateHistory {
  public:
-  static constexpr uint32_t kTicks = 1024;  // 8.5 s: longer than the slowest drop falls through the field
-  struct Entry {
-    SizeLaw law;
-    std::array<double, kSpeedClasses> density_m3{};
-    // Of a candidate's drop, in whole tenths of a micrometre, so that the last digit of a machine's logarithm
-    // does not show.
-    float diameter_m(uint32_t kind, double size) const;
-    double per_slope_mm = 0.0;
-    std::array<double, kSpeedClasses> from_mm{}, part{};  // 1 - exp(-slope * width)
-  };
-  void fill(double rate_mm_h);
-  void add(double rate_mm_h);  // one tick on
-  const Entry& now() const { return ring_[now_]; }
-  const Entry& ago(uint32_t ticks) const {
+  static constexpr uint32_t kTicks = 4096;  // 34 s: longer than the slowest flake falls through the field
+  void fill(const Rates& rates);
+  void add(const Rates& rates);  // one tick on
+  const InTheAir& now() const { return ring_[now_]; }
+  const InTheAir& ago(uint32_t ticks) const {
     return ring_[(now_ + kTicks - (ticks < kTicks ? ticks : kTicks - 1)) % kTicks];
   }
-  const Entry& wettest() const { return ring_[wettest_]; }  // a class has its most drops at the highest rate
+  // Density of a class at its highest in the history, or a little longer ago; 0: there is none of it.
+  double most_m3(uint32_t kind) const { return most_m3_[kind]; }
   bool steady() const { return steady_ >= kTicks; }
 
  private:
-  static Entry entryOf(double rate_mm_h);
-  std::array<Entry, kTicks> ring_{};
-  uint32_t now_ = 0, wettest_ = 0, steady_ = 0;
+  using Densities = std::array<double, kClasses>;
+  static constexpr uint32_t kBlock = 32;
+
+  void noteMost();
+
+  std::array<InTheAir, kTicks> ring_{};
+  std::array<Densities, kTicks / kBlock> most_of_block_{};
+  Densities most_m3_{};
+  uint32_t now_ = 0, steady_ = 0;
 };
 
 }  // namespace rg::rain

@@ -12,8 +12,8 @@ constexpr double kGravity_mps2 = 9.81;
 // So that the last digits of a machine's log do not decide where drops are.
 double rounded(double share) { return std::round(share * 0x1p20) * 0x1p-20; }
 
-// exp(x) E1(x), the exponential integral.
-double scaledE1(double x) { return -std::exp(x) * std::expint(-x); }
+// exp(x) E1(x), the exponential integral; for large x, where its factors leave the range of a double, 1 / x.
+double scaledE1(double x) { return x < 100.0 ? -std::exp(x) * std::expint(-x) : 1.0 / (x + 1.0); }
 
 }  // namespace
 
@@ -24,8 +24,8 @@ WindProfile WindProfile::of(double roughness_m, double height_m) {
   profile.height_m = std::clamp(height_m, 1.0, kStatedAt_m);
   profile.air_share =
       rounded(std::log(profile.height_m / profile.roughness_m) / std::log(kStatedAt_m / profile.roughness_m));
-  for (uint32_t kind = 0; kind < kSpeedClasses; ++kind)
-    profile.drop_share[kind] = profile.dropShare(speedClasses()[kind].speed_mps);
+  for (uint32_t kind = 0; kind < kClasses; ++kind)
+    profile.drop_share[kind] = kind == kBouncedClass ? 0.0 : profile.dropShare(fallClasses()[kind].speed_mps);
   return profile;
 }
 
