@@ -7,9 +7,7 @@ namespace host {
 
 double cloudCover(const Sky& sky) { return std::clamp(sky.rain_mm_h / 0.5, 0.0, 1.0); }
 
-double extinction(const Sky& sky) {
-  return 3.912 / std::max(sky.visibility_m, 1.0) + 0.312e-3 * std::pow(std::max(sky.rain_mm_h, 0.0), 0.67);
-}
+double extinction(const Sky& sky) { return 3.912 / std::max(sky.visibility_m, 1.0); }
 
 glm::vec3 sunIrradiance(const Sky& sky) {
   // About 90 klx under a clear sky, warm as it is lower than the sky is blue; none through rain clouds.

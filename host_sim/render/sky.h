@@ -17,8 +17,8 @@ struct Sky {
 
 /// How far clouds close the sky, 0 clear .. 1 overcast: whole from 0.5 mm/h on.
 double cloudCover(const Sky& sky);
-/// Extinction of the air and its rain, 1/m: 3.912 / range (Koschmieder 1924, 2 % contrast) + 0.312 R^0.67 per
-/// km (Weber et al. 2015).
+/// Extinction of the air without its rain (the plugin draws that), 1/m: 3.912 / range (Koschmieder 1924, 2 %
+/// contrast).
 double extinction(const Sky& sky);
 /// Radiance of an overcast zenith, 1000 cd/m^2: darker the heavier the rain.
 double overcastZenith(const Sky& sky);

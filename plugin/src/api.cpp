@@ -392,6 +392,8 @@ constexpr rg_api kApi = {
     getParameterCount,
     getParameter,
     setParameter,
+    defaultRainPattern,
+    setRainPattern,
 };
 
 }  // namespace

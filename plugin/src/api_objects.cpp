@@ -9,7 +9,8 @@ namespace rg {
 namespace {
 
 constexpr uint32_t kMostPlacedDrops = 1000000, kMostVertices = 1000000;
-constexpr double kAcross = 0.01;  // cosine of a right angle, within half a degree
+constexpr size_t kLongestRow = size_t{1} << 20;  // bytes; a longer stride is a mistake
+constexpr double kAcross = 0.01;                 // cosine of a right angle, within half a degree
 
 glm::dvec3 unitVector(const double v[3], const char* name) {
   const glm::dvec3 vector = finiteVector(v, name);
@@ -157,4 +158,30 @@ rg_result placeDrops(rg_instance* instance, uint32_t pane, const rg_glass_drop* 
     frame.placeDrops(pane, drops);
   });
 }
+
+rg_result setRainPattern(rg_instance* instance, const rg_rain_pattern* in) {
+  return guarded(instance, [&](Frame& frame) {
+    rain::RainPattern pattern;
+    if (in != nullptr) {
+      const rg_rain_pattern info = readStruct(in, "rg_rain_pattern");
+      checkRange(info.width_px, rain::RainPattern::kSmallest_px, rain::RainPattern::kLargest_px,
+                 "rg_rain_pattern.width_px");
+      checkRange(info.height_px, rain::RainPattern::kSmallest_px, rain::RainPattern::kLargest_px,
+                 "rg_rain_pattern.height_px");
+      if (info.rgba == nullptr) refuse("rg_rain_pattern.rgba is null");
+      const size_t row = size_t{4} * info.width_px;
+      const size_t stride = info.row_stride_bytes == 0 ? row : info.row_stride_bytes;
+      if (stride < row || stride > kLongestRow)
+        refuse("rg_rain_pattern.row_stride_bytes is " + std::to_string(stride) + ", must be 0 or " +
+               std::to_string(row) + " .. " + std::to_string(kLongestRow));
+      std::vector<uint8_t> rgba(row * info.height_px);
+      for (size_t y = 0; y < info.height_px; ++y) std::memcpy(&rgba[y * row], info.rgba + y * stride, row);
+      if (auto wrong = rain::makePattern(info.width_px, info.height_px, std::move(rgba), pattern);
+          !wrong.empty())
+        refuse(wrong);
+    }
+    frame.setRainPattern(std::move(pattern));
+  });
+}
+
 }  // namespace rg

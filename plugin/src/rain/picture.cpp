@@ -18,9 +18,9 @@ struct Posed {
   double gap_m;  // between its sphere and the eye
 };
 
-std::vector<Posed> nearestFirst(const Picture& picture, const dvec3& eye, double after_s) {
+std::vector<Posed> nearestFirst(std::span<const NearVolume> volumes, const dvec3& eye, double after_s) {
   std::vector<Posed> posed;
-  for (const NearVolume& volume : picture.volumes) {
+  for (const NearVolume& volume : volumes) {
     const Pose pose = movedOn(volume.pose, after_s);
     const dvec3 centre = outOfBody(pose, volume.centre);
     posed.push_back({&volume, pose, centre, glm::distance(centre, eye) - volume.radius_m});
@@ -30,10 +30,13 @@ std::vector<Posed> nearestFirst(const Picture& picture, const dvec3& eye, double
   return posed;
 }
 
-void setUpShelter(const Picture& picture, const dvec3& eye, double after_s, shared::RainShelter& shelter) {
+}  // namespace
+
+void setUpShelter(std::span<const NearVolume> volumes, const dvec3& eye, double after_s,
+                  shared::RainShelter& shelter) {
   uint32_t planes = 0;
   shelter.volume_count = 0;
-  for (const Posed& posed : nearestFirst(picture, eye, after_s)) {
+  for (const Posed& posed : nearestFirst(volumes, eye, after_s)) {
     const auto count = static_cast<uint32_t>(posed.volume->planes.size());
     if (shelter.volume_count == shared::kRainNearVolumes || planes + count > shared::kRainNearPlanes)
       continue;
@@ -48,8 +51,6 @@ void setUpShelter(const Picture& picture, const dvec3& eye, double after_s, shar
   }
 }
 
-}  // namespace
-
 void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns, StreakSetup& out) {
   const dvec3 eye = coneOf(view).eye_m;
   const double after_s = static_cast<double>(time_ns - picture.time_ns) * 1e-9;
@@ -61,7 +62,7 @@ void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns
     out.classes[kind].velocity_reach = vec4(vec3(c.velocity_mps), static_cast<float>(c.reach_per_diameter));
     out.classes[kind].base = glm::ivec4(glm::ivec3(base), 0);
   }
-  setUpShelter(picture, eye, after_s, out.shelter);
+  setUpShelter(picture.volumes, eye, after_s, out.shelter);
   out.view.eye_velocity_exposure = vec4(vec3(eyeVelocityOf(view)), static_cast<float>(exposureOf(view)));
   const double units =
       std::floor(after_s * static_cast<double>(kTickHz) * static_cast<double>(shared::kRainEndUnits));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "rain/volume.h"
@@ -56,6 +57,8 @@ struct StreakSetup {
   shared::RainShelter shelter;
   shared::RainView view;
 };
+void setUpShelter(std::span<const NearVolume> volumes, const glm::dvec3& eye_m, double after_s,
+                  shared::RainShelter& shelter);  // the nearest that fit, nearest first, as they stand then
 void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns, StreakSetup& out);
 
 }  // namespace rg::rain
