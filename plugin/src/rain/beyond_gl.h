@@ -24,8 +24,9 @@ class BeyondRenderer {
   // Draws the picture last taken, at draw.time_ns. With the target's depth to read, each pixel has the rain
   // between the eye and what it shows, without what particles take at draw.gain (see setUpBeyond). Without,
   // each layer is drawn as a whole where what is there lies behind its middle. Call within a state guard;
-  // touches: program, vertex array, uniform buffers 0 .. 2, shader storage buffer 0, texture units 0 .. 2 with their samplers, draw
-  // framebuffer, viewport, blend, depth, raster state. Twice the same draw gives the same picture.
+  // touches: program, vertex array, uniform buffers 0 .. 2, shader storage buffer 0, texture units 0 .. 2
+  // with their samplers, draw framebuffer, viewport, blend, depth, raster state. Twice the same draw gives
+  // the same picture.
   void draw(const RainDraw& draw, const BeyondLook& look);
 
   void forget();  // the context is lost: free nothing
