@@ -16,8 +16,7 @@ double allThatFalls_mm_h(const Sky& sky) {
 double cloudCover(const Sky& sky) { return std::clamp(allThatFalls_mm_h(sky) / 0.5, 0.0, 1.0); }
 
 double extinction(const Sky& sky) {
-  return 3.912 / std::max(sky.visibility_m, 1.0) + 0.312e-3 * std::pow(std::max(sky.rain_mm_h, 0.0), 0.67) +
-         3.9e-3 * std::pow(std::max(sky.snow_mm_h, 0.0), 0.65);
+  return 3.912 / std::max(sky.visibility_m, 1.0) + 3.9e-3 * std::pow(std::max(sky.snow_mm_h, 0.0), 0.65);
 }
 
 glm::vec3 sunIrradiance(const Sky& sky) {

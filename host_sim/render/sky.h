@@ -17,9 +17,9 @@ struct Sky {
 
 /// How far clouds close the sky, 0 clear .. 1 overcast: whole from 0.5 mm/h on.
 double cloudCover(const Sky& sky);
-/// Extinction of the air, its rain and its snow, 1/m: 3.912 / range (Koschmieder 1924, 2 % contrast) + 0.312
-/// R^0.67 per km (Weber et al. 2015) + 3.9 S^0.65 per km: a range of 1 km at 1 mm/h, between the extremes of
-/// a factor of 3 to 10 that Rasmussen et al. (1999) found (coefficients unsourced). Hail is too sparse to
+/// Extinction of the air and its snow, without its rain (the plugin draws that), 1/m: 3.912 / range
+/// (Koschmieder 1924, 2 % contrast) + 3.9 S^0.65 per km: a range of 1 km at 1 mm/h, between the extremes of a
+/// factor of 3 to 10 that Rasmussen et al. (1999) found (coefficients unsourced). Hail is too sparse to
 /// count.
 double extinction(const Sky& sky);
 /// Radiance of an overcast zenith, 1000 cd/m^2: darker the more falls.

@@ -1,123 +1,22 @@
 // The ABI's edge: checks arguments, catches everything, returns a code. No maths here.
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <new>
 #include <vector>
 
+#include "api_call.h"
+#include "api_objects.h"
 #include "checks.h"
 #include "defaults.h"
 #include "frame.h"
 
-struct rg_instance {
-  rg::Frame frame;
-  rg_log_fn log;
-  void* log_user;
-  bool told_of_near_volumes = false;  // too many of them: told once
-};
-
 namespace rg {
 namespace {
 
-constexpr uint32_t kMostLamps = 4096, kMostPlacedDrops = 1000000, kMostVertices = 1000000;
-constexpr double kAcross = 0.01;        // cosine of a right angle, within half a degree
-constexpr double kMaxDouble = 1.7e308;  // any finite number
-
-// Plain bytes: a thread-local with a destructor would keep the library from being unloaded while its thread
-// lives.
-thread_local char create_error[256];
+constexpr uint32_t kMostLamps = 4096;
 
 // Numbers of log messages: the negated result code for refused calls, from 100 on for remarks.
 enum : uint32_t { kLogThinned = 101, kLogTimeDropped = 102, kLogAttached = 103, kLogNearVolumes = 104 };
-
-void say(const rg_instance& instance, rg_log_level level, uint32_t message, const std::string& text) {
-  if (instance.log != nullptr) instance.log(instance.log_user, level, message, text.c_str());
-}
-
-rg_result failed(rg_instance* instance, rg_result code, const char* text) {
-  try {
-    if (instance != nullptr)
-      instance->frame.last_error.set(text);
-    else
-      std::snprintf(create_error, sizeof create_error, "%s", text);
-    if (instance != nullptr) say(*instance, RG_LOG_ERROR, static_cast<uint32_t>(-code), text);
-  } catch (...) {
-    return RG_ERROR_OUT_OF_MEMORY;
-  }
-  return code;
-}
-
-rg_result codeOf(gl::Error::Kind kind) {
-  switch (kind) {
-    case gl::Error::Kind::kVersion:
-      return RG_ERROR_GL_VERSION;
-    case gl::Error::Kind::kDriver:
-      return RG_ERROR_GL;
-    case gl::Error::Kind::kOutOfMemory:
-      return RG_ERROR_OUT_OF_MEMORY;
-    case gl::Error::Kind::kWrongOrder:
-      return RG_ERROR_WRONG_ORDER;
-  }
-  return RG_ERROR_INTERNAL;
-}
-
-// Runs a call; whatever is thrown becomes a code and the instance's last error.
-template <typename Call>
-rg_result guarded(rg_instance* instance, Call&& call) {
-  if (instance == nullptr) return failed(nullptr, RG_ERROR_BAD_ARGUMENT, "the instance is null");
-  try {
-    if constexpr (std::is_void_v<decltype(call(instance->frame))>) {
-      call(instance->frame);
-      return RG_OK;
-    } else {
-      return call(instance->frame);
-    }
-  } catch (const ApiError& e) {
-    return failed(instance, e.code(), e.what());
-  } catch (const gl::Error& e) {
-    return failed(instance, codeOf(e.kind()), e.what());
-  } catch (const std::invalid_argument& e) {
-    return failed(instance, RG_ERROR_BAD_ARGUMENT, e.what());
-  } catch (const std::bad_alloc&) {
-    return failed(instance, RG_ERROR_OUT_OF_MEMORY, "out of memory");
-  } catch (const std::exception& e) {
-    return failed(instance, RG_ERROR_INTERNAL, e.what());
-  } catch (...) {
-    return failed(instance, RG_ERROR_INTERNAL, "unknown failure");
-  }
-}
-
-void checkId(uint32_t id, const char* what) {
-  if (id == 0) refuse(std::string(what) + " id is 0; ids begin at 1");
-}
-
-template <typename T>
-T* checkOut(T* out, const char* name) {
-  if (out == nullptr) refuse(std::string(name) + " is null");
-  return out;
-}
-
-// An out struct says its size, so that a host compiled against an older header gets no more than it has room
-// for.
-template <typename T>
-void writeStruct(T* out, T value, const char* name) {
-  checkOut(out, name);
-  const size_t size = knownSize<T>(out->struct_size, name);
-  value.struct_size = out->struct_size;
-  std::memcpy(out, &value, size);
-}
-
-glm::dvec3 finiteVector(const double v[3], const char* name) {
-  for (int i = 0; i < 3; ++i) checkRange(v[i], -kMaxDouble, kMaxDouble, name);
-  return {v[0], v[1], v[2]};
-}
-
-glm::dvec3 unitVector(const double v[3], const char* name) {
-  const glm::dvec3 vector = finiteVector(v, name);
-  if (std::abs(glm::length(vector) - 1.0) > 1e-3) refuse(std::string(name) + " is not of unit length");
-  return glm::normalize(vector);
-}
-
 glm::vec3 radiance(const float v[3], const char* name) {
   for (int i = 0; i < 3; ++i) checkRange(static_cast<double>(v[i]), 0.0, 1e9, name);
   return {v[0], v[1], v[2]};
@@ -146,7 +45,7 @@ rg_result create(const rg_create_info* in, rg_instance** out) {
 void destroy(rg_instance* instance) { delete instance; }
 
 const char* lastError(rg_instance* instance) {
-  return instance != nullptr ? instance->frame.last_error.get() : create_error;
+  return instance != nullptr ? instance->frame.last_error.get() : createError();
 }
 
 // ---- GL ----
@@ -167,148 +66,6 @@ rg_result detachGl(rg_instance* instance) {
 rg_result contextLost(rg_instance* instance) {
   return guarded(instance, [](Frame& frame) { frame.contextLost(); });
 }
-
-// ---- objects ----
-
-rg_result setVolume(rg_instance* instance, uint32_t id, const rg_volume_info* in) {
-  return guarded(instance, [&](Frame& frame) {
-    checkId(id, "volume");
-    const rg_volume_info info = readStruct(in, "rg_volume_info");
-    rain::VolumeInfo volume;
-    volume.vehicle = info.vehicle;
-    volume.name = readName(info.name, "rg_volume_info.name");
-    volume.active = info.active != 0;
-    if ((info.vertices_m == nullptr) == (info.planes == nullptr))
-      refuse("volume \"" + volume.name + "\": give vertices or planes, not both or none");
-    std::vector<glm::dvec3> vertices;
-    std::vector<rain::Plane> planes;
-    if (info.vertices_m != nullptr) {
-      checkArray(info.vertices_m, info.vertex_count, 3 * sizeof(double), 3 * sizeof(double),
-                 rain::Convex::kMaxVertices, "rg_volume_info.vertices_m");
-      for (uint32_t i = 0; i < info.vertex_count; ++i)
-        vertices.emplace_back(info.vertices_m[3 * i], info.vertices_m[3 * i + 1], info.vertices_m[3 * i + 2]);
-    } else {
-      checkArray(info.planes, info.plane_count, 4 * sizeof(double), 4 * sizeof(double),
-                 rain::Convex::kMaxPlanes, "rg_volume_info.planes");
-      for (uint32_t i = 0; i < info.plane_count; ++i) {
-        const double* p = info.planes + 4 * i;
-        planes.push_back({{p[0], p[1], p[2]}, p[3]});
-      }
-    }
-    volume.vertices = vertices;
-    volume.planes = planes;
-    frame.setVolume(id, volume);
-  });
-}
-
-rg_result removeVolume(rg_instance* instance, uint32_t id) {
-  return guarded(instance, [&](Frame& frame) { frame.removeVolume(id); });
-}
-
-rg_result removeVehicle(rg_instance* instance, uint32_t id) {
-  return guarded(instance, [&](Frame& frame) {
-    checkId(id, "vehicle");
-    frame.removeVehicle(id);
-  });
-}
-
-template <typename Vector>
-std::vector<Vector> readFloats(const float* data, uint32_t count, size_t stride, const char* name) {
-  const size_t step = stride == 0 ? sizeof(Vector) : stride;
-  checkArray(data, count, step, sizeof(Vector), kMostVertices, name);
-  std::vector<Vector> out(count);
-  for (uint32_t i = 0; i < count; ++i) {
-    std::memcpy(&out[i], element(data, step, i), sizeof(Vector));
-    for (glm::length_t k = 0; k < Vector::length(); ++k) {
-      if (!std::isfinite(out[i][k]))
-        refuse(std::string(name) + "[" + std::to_string(i) + "] is not a number");
-    }
-  }
-  return out;
-}
-
-rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
-  return guarded(instance, [&](Frame& frame) {
-    checkId(id, "pane");
-    const rg_pane_info info = readStruct(in, "rg_pane_info");
-    checkId(info.vehicle, "rg_pane_info.vehicle");
-    glass::PaneInfo pane;
-    pane.name = readName(info.name, "rg_pane_info.name");
-    if (info.vertex_count == 0 || info.index_count == 0)
-      refuse("pane \"" + pane.name + "\" has no triangles");
-    const auto positions = readFloats<glm::vec3>(info.positions_m, info.vertex_count, info.position_stride,
-                                                 "rg_pane_info.positions_m");
-    const auto uvs = readFloats<glm::vec2>(info.uvs, info.vertex_count, info.uv_stride, "rg_pane_info.uvs");
-    checkArray(info.indices, info.index_count, sizeof(uint32_t), sizeof(uint32_t),
-               6 * uint64_t{kMostVertices}, "rg_pane_info.indices");
-    if (info.index_count % 3 != 0) refuse("pane \"" + pane.name + "\": index_count is no multiple of 3");
-    if (info.glass < RG_GLASS_UNCOATED || info.glass > RG_GLASS_NEW_COATING)
-      refuse("rg_pane_info.glass is no rg_glass");
-    checkRange(info.advancing_deg, 0.0, 175.0, "rg_pane_info.advancing_deg");
-    checkRange(info.receding_deg, 0.0, 175.0, "rg_pane_info.receding_deg");
-    checkRange(info.texel_m, 0.5e-3, 20e-3, "rg_pane_info.texel_m");
-    checkRange(info.max_drops, 0.0, 1e6, "rg_pane_info.max_drops");
-    checkRange(info.opening_m, 0.0, 10.0, "rg_pane_info.opening_m");
-    if (info.opening_m != 0.0)
-      refuse("rg_pane_info.opening_m: this build has no sliding windows", RG_ERROR_MISSING_FEATURE);
-    pane.positions_m = positions;
-    pane.uvs = uvs;
-    pane.indices = {info.indices, info.index_count};
-    pane.glass = static_cast<glass::Glass>(info.glass);
-    pane.advancing_rad = glm::radians(info.advancing_deg);
-    pane.receding_rad = glm::radians(info.receding_deg);
-    pane.texel_m = info.texel_m;
-    pane.max_drops = info.max_drops;
-    pane.film_enabled = info.film_enabled != 0;
-    frame.setPane(id, info.vehicle, info.active != 0, pane);
-  });
-}
-
-rg_result removePane(rg_instance* instance, uint32_t id) {
-  return guarded(instance, [&](Frame& frame) { frame.removePane(id); });
-}
-
-rg_result setWiper(rg_instance* instance, uint32_t id, const rg_wiper_info* in) {
-  return guarded(instance, [&](Frame& frame) {
-    checkId(id, "wiper");
-    const rg_wiper_info info = readStruct(in, "rg_wiper_info");
-    glass::WiperInfo wiper;
-    wiper.pivot_m = finiteVector(info.pivot_m, "rg_wiper_info.pivot_m");
-    wiper.axis = unitVector(info.axis, "rg_wiper_info.axis");
-    wiper.rest_direction = unitVector(info.rest_direction, "rg_wiper_info.rest_direction");
-    if (std::abs(glm::dot(wiper.axis, wiper.rest_direction)) > kAcross)
-      refuse("rg_wiper_info.rest_direction is not across axis");
-    checkRange(info.arm_m, 0.01, 5.0, "rg_wiper_info.arm_m");
-    checkRange(info.blade_m, 0.01, 5.0, "rg_wiper_info.blade_m");
-    checkRange(info.blade_angle_rad, -3.2, 3.2, "rg_wiper_info.blade_angle_rad");
-    checkRange(info.residual_film_m, 0.0, 1e-4, "rg_wiper_info.residual_film_m");
-    wiper.arm_m = info.arm_m;
-    wiper.blade_m = info.blade_m;
-    wiper.blade_angle_rad = info.blade_angle_rad;
-    wiper.residual_film_m = info.residual_film_m;
-    frame.setWiper(id, info.pane, wiper);
-  });
-}
-
-rg_result removeWiper(rg_instance* instance, uint32_t id) {
-  return guarded(instance, [&](Frame& frame) { frame.removeWiper(id); });
-}
-
-rg_result placeDrops(rg_instance* instance, uint32_t pane, const rg_glass_drop* in, uint32_t count) {
-  return guarded(instance, [&](Frame& frame) {
-    checkArray(in, count, sizeof(rg_glass_drop), sizeof(rg_glass_drop), kMostPlacedDrops, "drops");
-    std::vector<glass::PlacedDrop> drops;
-    for (uint32_t i = 0; i < count; ++i) {
-      checkRange(in[i].u_m, -100.0, 100.0, "rg_glass_drop.u_m");
-      checkRange(in[i].v_m, -100.0, 100.0, "rg_glass_drop.v_m");
-      checkRange(in[i].base_radius_m, 1e-5, 0.02, "rg_glass_drop.base_radius_m");
-      checkRange(in[i].contact_angle_deg, 1.0, 170.0, "rg_glass_drop.contact_angle_deg");
-      drops.push_back({in[i].u_m, in[i].v_m, in[i].base_radius_m, glm::radians(in[i].contact_angle_deg)});
-    }
-    frame.placeDrops(pane, drops);
-  });
-}
-
 // ---- frame ----
 
 rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, uint32_t count, size_t stride) {
@@ -651,6 +408,8 @@ constexpr rg_api kApi = {
     getParameterCount,
     getParameter,
     setParameter,
+    defaultRainPattern,
+    setRainPattern,
 };
 
 }  // namespace

@@ -99,4 +99,6 @@ void defaultCaptureInfo(rg_capture_info* out) {
   out->max_faces = 1;
 }
 
+void defaultRainPattern(rg_rain_pattern* out) { clear(out); }
+
 }  // namespace rg

@@ -18,5 +18,6 @@ void defaultTarget(rg_target* out);
 void defaultLighting(rg_lighting* out);
 void defaultDraw(rg_draw* out);
 void defaultCaptureInfo(rg_capture_info* out);
+void defaultRainPattern(rg_rain_pattern* out);
 
 }  // namespace rg

@@ -26,6 +26,7 @@ Frame::Frame(const rg_create_info& info)
   stage_.rain_upload = timers_.add("rain_upload", true);
   stage_.glass_step = timers_.add("glass_step", true);
   stage_.captures = timers_.add("captures", true);
+  stage_.rain_beyond = timers_.add("rain_beyond", true);
   stage_.rain_draw = timers_.add("rain_draw", true);
   stage_.glass_draw = timers_.add("glass_draw", true);
   stage_.finish = timers_.add("finish", true);
@@ -124,6 +125,12 @@ void Frame::placeDrops(uint32_t id, std::span<const glass::PlacedDrop> drops) {
   pane(id).sim->placeDrops(drops);
 }
 
+void Frame::setRainPattern(rain::RainPattern pattern) {
+  const std::lock_guard lock(sim_);
+  pattern_ = std::move(pattern);
+  ++pattern_version_;
+}
+
 // ---- time ----
 
 rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
@@ -169,6 +176,7 @@ void Frame::runTick(int64_t index, bool rain_only) {
   {
     const gl::ScopedStage timed(timers_, stage_.rain_tick);
     field_.tick(tick);
+    beyond_.tick(tick, wind_profile_);
   }
   if (rain_only) return;
   const gl::ScopedStage timed(timers_, stage_.glass_tick);
@@ -179,6 +187,7 @@ void Frame::reset() {
   const std::lock_guard lock(sim_);
   timeline_.clear();
   field_.reset();
+  beyond_.reset();
   for (auto& [id, p] : panes_) {
     p.sim->reset();
     p.tick = 0;
@@ -186,6 +195,7 @@ void Frame::reset() {
   started_ = false;
   prewarm_ticks_ = 0;
   field_.publishAll(upload_);
+  publishBeyond();
 }
 
 void Frame::seek(int64_t time_ns) {
@@ -210,6 +220,7 @@ void Frame::rebase(const glm::dvec3& shift_m) {
   const std::lock_guard lock(sim_);
   timeline_.rebase(shift_m);
   field_.rebase(shift_m);
+  beyond_.rebase(shift_m);
   publish();
 }
 
@@ -220,6 +231,13 @@ void Frame::publish() {
     field_.publishAll(upload_);
   else
     field_.publish(upload_);
+  publishBeyond();
+}
+
+void Frame::publishBeyond() {
+  beyond_.describe(upload_.picture.classes[0].reach_per_diameter, beyond_picture_);
+  beyond_picture_.volumes.clear();
+  field_.volumesSeen(beyond_.cones(), rain::kBeyondRange_m, beyond_picture_.volumes);
 }
 
 // ---- questions ----

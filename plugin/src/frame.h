@@ -16,6 +16,8 @@
 #include "glass/pane.h"
 #include "glass/pane_gl.h"
 #include "last_error.h"
+#include "rain/beyond.h"
+#include "rain/beyond_pattern.h"
 #include "rain/field.h"
 #include "rain/rain_gl.h"
 #include "settings.h"
@@ -66,6 +68,7 @@ class Frame {
   void setWiper(uint32_t id, uint32_t pane, const glass::WiperInfo& info);
   void removeWiper(uint32_t id);
   void placeDrops(uint32_t pane, std::span<const glass::PlacedDrop> drops);
+  void setRainPattern(rain::RainPattern pattern);  // an empty one: the project's own
 
   // Time. update returns a remark or RG_OK.
   rg_result update(int64_t time_ns, const std::vector<Sample>& samples);
@@ -110,12 +113,17 @@ class Frame {
   void leaveGl();
   void finishGlass();  // runs what waits for the film, and waits for it; GL thread, locked
   void publish();
+  void publishBeyond();
   void requireMoment(int64_t time_ns) const;
 
   mutable std::mutex sim_;  // of all below; held by update throughout, by the GL thread for moments
   Timeline timeline_;
   rain::Field field_;
   rain::Upload upload_;
+  rain::Beyond beyond_;
+  rain::BeyondPicture beyond_picture_;
+  rain::RainPattern pattern_;  // empty: the project's own
+  uint32_t pattern_version_ = 1;
   std::map<uint32_t, PaneObject> panes_;
   std::map<uint32_t, WiperObject> wipers_;
   std::map<uint32_t, uint32_t> volumes_;  // id -> vehicle
@@ -135,7 +143,8 @@ class Frame {
 
   gl::Timers timers_;
   struct Stages {
-    gl::Timers::Stage rain_tick, glass_tick, rain_upload, glass_step, captures, rain_draw, glass_draw, finish;
+    gl::Timers::Stage rain_tick, glass_tick, rain_upload, glass_step, captures, rain_beyond, rain_draw,
+        glass_draw, finish;
   } stage_;
   std::unique_ptr<Gl> gl_;
 };

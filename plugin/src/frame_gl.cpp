@@ -30,6 +30,12 @@ void requireTarget(const gl::Context& context, const DrawRequest& request) {
   gl::requireCube(context, request.lighting.environment_cube, "rg_lighting.environment_cube");
 }
 
+rain::BeyondLook beyondLook(const Settings& s) {
+  return {s.rain_beyond,
+          {s.rain_near_bias, s.rain_middle_bias, s.rain_far_bias, s.rain_haze_bias},
+          {s.rain_near_contrast, s.rain_middle_contrast, s.rain_far_contrast}};
+}
+
 glm::dmat4 worldFromVehicle(const Pose& pose) {
   glm::dmat4 m = glm::mat4_cast(pose.orientation);
   m[3] = glm::dvec4(pose.position_m, 1.0);
@@ -64,6 +70,7 @@ Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
       host_resets_state(info.host_resets_state != 0) {
   const gl::StateGuard guarded = guard(kDrawTouches | kStepTouches);
   rain = std::make_unique<rain::RainRenderer>(*context, capacity);
+  beyond = std::make_unique<rain::BeyondRenderer>(*context);
   film_programs = glass::makeFilmPrograms(context->gl);
   look = std::make_unique<glass::GlassLook>(context->gl);
   gl::throwOnError(context->gl, "attach_gl");
@@ -76,6 +83,7 @@ uint64_t Frame::Gl::filmHash(uint32_t pane) const {
 
 void Frame::Gl::forget() {
   rain->forget();
+  beyond->forget();
   look->abandon();
   for (auto& [id, half] : panes) half.gl->abandon();
   glass::abandonFilmPrograms(*film_programs);
@@ -104,6 +112,7 @@ void Frame::detach() {
     timers_.detach();
     gl.panes.clear();
     gl.rain.reset();
+    gl.beyond.reset();
     gl.look.reset();
     gl.film_programs.reset();
   }
@@ -151,6 +160,10 @@ void Frame::stepGpu() {
     const gl::ScopedStage timed(timers_, stage_.rain_upload);
     const std::lock_guard lock(sim_);
     gl.rain->upload(upload_);
+    gl.beyond->take(beyond_picture_);
+    if (gl.pattern_version != pattern_version_)
+      gl.beyond->setPattern(pattern_.rgba.empty() ? rain::generatePattern() : pattern_);
+    gl.pattern_version = pattern_version_;
   }
   const gl::ScopedStage timed(timers_, stage_.glass_step);
   {
@@ -186,7 +199,7 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
   gl::StateGuard guarded = gl.guard(kDrawTouches);
   requireTarget(*gl.context, request);
   guarded.drawInto(request.target.framebuffer);
-  const gl::ScopedStage timed(timers_, stage_.rain_draw);
+  const Settings now = settings();
   rain::RainDraw draw;
   draw.view = &request.view;
   draw.viewport_px = request.viewport_px;
@@ -196,8 +209,14 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
                  request.target.exposure};
   draw.lighting = request.lighting;
   draw.lighting.lamps = request.lamps;
-  draw.gain = static_cast<float>(settings().rain_gain);
-  for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i) gl.rain->draw(draw);
+  draw.gain = static_cast<float>(now.rain_gain);
+  {
+    const gl::ScopedStage timed(timers_, stage_.rain_beyond);
+    const rain::BeyondLook look = beyondLook(now);
+    for (int i = 0; i < static_cast<int>(now.bench_repeat); ++i) gl.beyond->draw(draw, look);
+  }
+  const gl::ScopedStage timed(timers_, stage_.rain_draw);
+  for (int i = 0; i < static_cast<int>(now.bench_repeat); ++i) gl.rain->draw(draw);
   gl::throwOnError(gl.context->gl, "draw_world");
   return guarded.touched();
 }

@@ -6,6 +6,7 @@
 
 #include "frame.h"
 #include "gl/state_guard.h"
+#include "rain/beyond_gl.h"
 
 namespace rg {
 
@@ -27,6 +28,8 @@ struct Frame::Gl {
   std::unique_ptr<gl::Context> context;
   bool host_resets_state = false;
   std::unique_ptr<rain::RainRenderer> rain;
+  std::unique_ptr<rain::BeyondRenderer> beyond;
+  uint32_t pattern_version = 0;
   std::shared_ptr<glass::FilmPrograms> film_programs;
   std::unique_ptr<glass::GlassLook> look;
   std::map<uint32_t, PaneHalf> panes;

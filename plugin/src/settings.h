@@ -10,6 +10,11 @@ struct Settings {
   double rain_gain = 5.0;
   double rain_visibility_factor = 1.2;
   double rain_reference_px = 1663.0;
+  double rain_beyond = 1.0;
+  double rain_near_bias = 1.0, rain_near_contrast = 0.4;
+  double rain_middle_bias = 1.0, rain_middle_contrast = 0.5;
+  double rain_far_bias = 1.0, rain_far_contrast = 0.5;
+  double rain_haze_bias = 1.0;
   double glass_brightness = 1.0;
   double glass_blur = 1.0;
   double glass_internal_reflections = 3.0;
@@ -43,6 +48,23 @@ inline constexpr SettingInfo kSettings[] = {
     {"rain.reference_px", "px", "rain",
      "focal length of the reference picture; never the view's own resolution", 100.0, 20000.0,
      &Settings::rain_reference_px},
+    {"rain.beyond", "1", "rain",
+     "how much is drawn of the rain that is too far off to be particles; 0 = none, 1 = as much as there is",
+     0.0, 1.0, &Settings::rain_beyond},
+    {"rain.near_bias", "1", "rain", "how dense rain looks up to 16 m; 1 = as it is", 0.0, 4.0,
+     &Settings::rain_near_bias},
+    {"rain.near_contrast", "1", "rain", "how much it shows of the pattern; 0 = an even haze, 1 = all of it",
+     0.0, 1.0, &Settings::rain_near_contrast},
+    {"rain.middle_bias", "1", "rain", "how dense rain looks from 16 to 40 m; 1 = as it is", 0.0, 4.0,
+     &Settings::rain_middle_bias},
+    {"rain.middle_contrast", "1", "rain", "how much it shows of the pattern; 0 = an even haze, 1 = all of it",
+     0.0, 1.0, &Settings::rain_middle_contrast},
+    {"rain.far_bias", "1", "rain", "how dense rain looks from 40 to 100 m; 1 = as it is", 0.0, 4.0,
+     &Settings::rain_far_bias},
+    {"rain.far_contrast", "1", "rain", "how much it shows of the pattern; 0 = an even haze, 1 = all of it",
+     0.0, 1.0, &Settings::rain_far_contrast},
+    {"rain.haze_bias", "1", "rain", "how dense rain looks beyond 100 m; 1 = as it is", 0.0, 4.0,
+     &Settings::rain_haze_bias},
     {"glass.brightness", "1", "glass", "of what is seen through water", 0.0, 2.0,
      &Settings::glass_brightness},
     {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0,

@@ -1,5 +1,6 @@
 // The light that a drop shows, and how the target holds it.
 #include "rain/streak.glsl"
+
 layout(binding = 1) uniform samplerCube environment;
 
 vec3 irradianceOf(RainLamp lamp, vec3 drop, out vec3 way) {
@@ -17,20 +18,26 @@ vec3 fromLamp(RainLamp lamp, vec3 drop, vec3 towards) {
   return irradiance * rainPhase(dot(way, -towards));
 }
 
-// Mean radiance a drop shows. Its wide lens gathers 165 degrees of what lies behind it, so the finest it tells apart is which half of the
-// world it has before it. 0.94: what two faces of water let through.
-vec3 gathered(vec3 drop) {
-  vec3 towards = normalize(drop);
+vec3 gatheredFromLamps(vec3 drop) {
+  vec3 towards = normalize(drop), light = vec3(0.0);
+  for (uint i = 0u; i < look.lamp_count; ++i) light += fromLamp(look.lamps[i], drop, towards);
+  return light;
+}
+
+// From sky, ground and sun by a drop that is seen in the unit direction `towards`. Its wide lens gathers 165 degrees of what lies behind it, so
+// the finest it tells apart is which half of the world it has before it. 0.94: what two faces of water let through.
+vec3 gatheredFromSky(vec3 towards) {
   vec3 light;
   if (look.environment > 0u) {
     light = textureLod(environment, towards, max(float(look.environment) - 2.5, 0.0)).rgb;
   } else {
     light = mix(look.ground.rgb, look.sky.rgb, clamp(0.5 + 0.5 * towards.z, 0.0, 1.0));
   }
-  light = 0.94 * light + look.sun_irradiance.rgb * rainPhase(dot(towards, look.sun_direction.xyz));
-  for (uint i = 0u; i < look.lamp_count; ++i) light += fromLamp(look.lamps[i], drop, towards);
-  return light;
+  return 0.94 * light + look.sun_irradiance.rgb * rainPhase(dot(towards, look.sun_direction.xyz));
 }
+
+// Mean radiance a drop shows.
+vec3 gathered(vec3 drop) { return gatheredFromSky(normalize(drop)) + gatheredFromLamps(drop); }
 
 // Of what scatters all light alike to all sides: the mean of all round, but for what ice and its soot take (0.95: unsourced).
 vec3 scattered(vec3 drop) {

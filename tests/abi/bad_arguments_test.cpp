@@ -41,7 +41,8 @@ TEST_F(BadArguments, aNullInstanceIsRefusedEverywhere) {
                                        api.get_hash(nullptr, 0, nullptr),
                                        api.get_parameter_count(nullptr, nullptr),
                                        api.get_parameter(nullptr, 0, nullptr),
-                                       api.set_parameter(nullptr, nullptr, 0.0)};
+                                       api.set_parameter(nullptr, nullptr, 0.0),
+                                       api.set_rain_pattern(nullptr, nullptr)};
   for (size_t i = 0; i < results.size(); ++i)
     EXPECT_EQ(results[i], RG_ERROR_BAD_ARGUMENT) << "function " << i;
   api.destroy(nullptr);

@@ -289,5 +289,44 @@ TEST_F(BadObjects, idsThatAreUnknown) {
       "hash", [&] { return api.get_hash(i, 7, &hash); }, RG_ERROR_BAD_ARGUMENT, "kind");
 }
 
+TEST_F(BadObjects, rainPatternsThatCannotBe) {
+  const std::vector<uint8_t> grey(size_t{4} * 16 * 16, 128), dry(grey.size(), 0);
+  rg_rain_pattern good;
+  api.default_rain_pattern(&good);
+  good.width_px = good.height_px = 16;
+  good.rgba = grey.data();
+  const auto call = [&](const rg_rain_pattern& p) { return api.set_rain_pattern(scene.instance, &p); };
+  expectStructChecked<rg_rain_pattern>("rg_rain_pattern", good, {}, call);
+  const auto refused = [&](const std::string& field, const std::function<void(rg_rain_pattern&)>& spoil) {
+    rg_rain_pattern bad = good;
+    spoil(bad);
+    expectRefused(
+        field, [&] { return call(bad); }, RG_ERROR_BAD_ARGUMENT, field);
+  };
+  refused("width_px", [](rg_rain_pattern& p) { p.width_px = 0; });
+  refused("width_px", [](rg_rain_pattern& p) { p.width_px = 0xFFFFFFFF; });
+  refused("height_px", [](rg_rain_pattern& p) { p.height_px = 7; });
+  refused("height_px", [](rg_rain_pattern& p) { p.height_px = 4097; });
+  refused("rgba", [](rg_rain_pattern& p) { p.rgba = nullptr; });
+  refused("row_stride_bytes", [](rg_rain_pattern& p) { p.row_stride_bytes = 63; });
+  refused("row_stride_bytes", [](rg_rain_pattern& p) { p.row_stride_bytes = SIZE_MAX; });
+  refused("alpha", [&](rg_rain_pattern& p) { p.rgba = dry.data(); });
+}
+
+TEST_F(BadObjects, aRainPatternIsTakenWithOrWithoutStrideAndTakenBack) {
+  const std::vector<uint8_t> grey(size_t{80} * 16, 128);
+  rg_rain_pattern pattern;
+  api.default_rain_pattern(&pattern);
+  pattern.width_px = pattern.height_px = 16;
+  pattern.rgba = grey.data();
+  for (const size_t stride : {size_t{0}, size_t{64}, size_t{80}}) {
+    pattern.row_stride_bytes = stride;
+    EXPECT_EQ(api.set_rain_pattern(scene.instance, &pattern), RG_OK) << api.last_error(scene.instance);
+    EXPECT_EQ(api.step_gpu(scene.instance), RG_OK) << api.last_error(scene.instance);
+  }
+  EXPECT_EQ(api.set_rain_pattern(scene.instance, nullptr), RG_OK) << api.last_error(scene.instance);
+  EXPECT_EQ(api.step_gpu(scene.instance), RG_OK) << api.last_error(scene.instance);
+}
+
 }  // namespace
 }  // namespace rg::test

@@ -249,6 +249,7 @@ TEST_F(BadPictures, nullForADefaultDoesNothing) {
   api.default_lighting(nullptr);
   api.default_draw(nullptr);
   api.default_capture_info(nullptr);
+  api.default_rain_pattern(nullptr);
 }
 
 }  // namespace

@@ -91,14 +91,12 @@ TEST(SkyGrid, followsAShelterThatLiesAskew) {
                   0.0F);  // 8 m to its side: an upright box along the axes would hold it
 }
 
-TEST(Sky, extinctionIsKoschmiedersAndWebers) {
+TEST(Sky, extinctionIsKoschmiedersAndLeavesTheRainsToThePlugin) {
   Sky sky;
   sky.visibility_m = 3912.0;
   EXPECT_NEAR(extinction(sky), 1e-3, 1e-12);
-  sky.visibility_m = 1e12;
   sky.rain_mm_h = 100.0;
-  // Transmission over 100 m at 100 mm/h: 0.51.
-  EXPECT_NEAR(std::exp(-100.0 * extinction(sky)), 0.51, 0.01);
+  EXPECT_NEAR(extinction(sky), 1e-3, 1e-12);
 }
 
 TEST(Sky, rainHidesTheSunAndDarkensTheSky) {

@@ -14,7 +14,7 @@
  *     api->step_gpu          GL thread    uploads what is new, runs the film's ticks
  *     api->prepare_captures  GL thread    (optional) your callback draws the scene behind the glass, wide
  *     for each view:
- *       api->draw_world      GL thread    falling rain into your colour + depth
+ *       api->draw_world      GL thread    falling rain into your colour + depth: drops, and the veil of rain beyond
  *       api->draw_glass      GL thread    the panes, with the world behind them
  *       api->draw_finish     GL thread    whole-picture effects
  *   api->detach_gl                                           GL thread, context current
@@ -415,6 +415,20 @@ typedef struct rg_glass_drop {
   double contact_angle_deg; /* 1 .. 170 */
 } rg_glass_drop;
 
+/* How rain looks that is too far off to be told apart as drops (from minor version 1). The pattern repeats in
+ * both directions; rows go along the fall, from where drops come to where they go. Red, green and blue hold
+ * the normal of what drops show (to the side, along the rows' order, towards the eye; 128 = 0), alpha how
+ * much rain there is: only its share of the pattern's mean counts, so that a pattern changes how rain looks
+ * and never how much of it there is. */
+typedef struct rg_rain_pattern {
+  uint32_t struct_size;
+  uint32_t width_px;  /* 8 .. 4096 */
+  uint32_t height_px; /* 8 .. 4096 */
+  uint32_t reserved;
+  const uint8_t* rgba;     /* 8 bits each, not all of alpha 0; read during the call */
+  size_t row_stride_bytes; /* 0 = tight */
+} rg_rain_pattern;
+
 /* ---- the functions ---- */
 
 typedef struct rg_api {
@@ -475,9 +489,13 @@ typedef struct rg_api {
                       size_t stride);
   rg_result (*step_gpu)(rg_instance* instance);                                      /* [thread: GL] */
   rg_result (*prepare_captures)(rg_instance* instance, const rg_capture_info* info); /* [thread: GL] */
-  rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);                     /* [thread: GL] */
-  rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);                     /* [thread: GL] */
-  rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw);                    /* [thread: GL] */
+  /* Falling drops, and behind them the veil of the rain that is too far off to be drops: as much as there is
+   * in the open air (outside all volumes) between the eye and what the depth buffer holds, or the clouds. So
+   * draw your own haze with the air's visibility alone. Without a depth_texture (and color_texture) the veil
+   * is drawn layer by layer, each tested as a whole at its middle. [thread: GL] */
+  rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);
+  rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);  /* [thread: GL] */
+  rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw); /* [thread: GL] */
 
   /* Time. [thread: as update] */
   rg_result (*reset)(rg_instance* instance); /* as after create: clock, rain, water; objects stay */
@@ -504,6 +522,12 @@ typedef struct rg_api {
   rg_result (*get_parameter_count)(rg_instance* instance, uint32_t* out);
   rg_result (*get_parameter)(rg_instance* instance, uint32_t index, rg_parameter* out);
   rg_result (*set_parameter)(rg_instance* instance, const char* name, double value);
+
+  /* From minor version 1 on: ask abi_minor before you call what follows. */
+  void (*default_rain_pattern)(rg_rain_pattern* out); /* [thread: any] */
+  /* Replaces the pattern of rain far off, from the next step_gpu on; null: the plugin's own again. [thread:
+   * as update] */
+  rg_result (*set_rain_pattern)(rg_instance* instance, const rg_rain_pattern* pattern);
 } rg_api;
 
 /* The table for this ABI major, or null when this library does not speak it. Static: never freed. [thread:

@@ -170,6 +170,9 @@ bool Field::removeVolume(uint32_t id) { return state_->shelter.remove(id); }
 bool Field::openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without) {
   return state_->shelter.openToSky(place_m, velocity_mps, without);
 }
+void Field::volumesSeen(std::span<const Cone> views, double radius_m, std::vector<NearVolume>& out) const {
+  state_->shelter.seen(views, radius_m, out);
+}
 void Field::removeVehicle(uint32_t vehicle) { state_->shelter.removeVehicle(vehicle); }
 
 void Field::setVisibility(const Visibility& visibility) {

@@ -23,6 +23,7 @@
 
 #include "rain/hydrometeors.h"
 #include "rain/picture.h"
+#include "rain/region.h"
 #include "rain/volume.h"
 #include "rain/wind_profile.h"
 #include "tick.h"
@@ -95,6 +96,9 @@ class Field {
   // Whether rain that falls with `velocity_mps` reaches a place as things stand at the last tick; volumes of
   // the vehicle `without` (0: none) do not count.
   bool openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps, uint32_t without);
+
+  // As Shelter::seen, as things stand at the last tick.
+  void volumesSeen(std::span<const Cone> views, double radius_m, std::vector<NearVolume>& out) const;
 
   FieldStats stats() const;
   uint64_t hash() const;  // over the live drops; independent of the order they came in

@@ -20,9 +20,9 @@ struct Posed {
   double gap_m;  // between its sphere and the eye
 };
 
-std::vector<Posed> nearestFirst(const Picture& picture, const dvec3& eye, double after_s) {
+std::vector<Posed> nearestFirst(std::span<const NearVolume> volumes, const dvec3& eye, double after_s) {
   std::vector<Posed> posed;
-  for (const NearVolume& volume : picture.volumes) {
+  for (const NearVolume& volume : volumes) {
     const Pose pose = movedOn(volume.pose, after_s);
     const dvec3 centre = outOfBody(pose, volume.centre);
     posed.push_back({&volume, pose, centre, glm::distance(centre, eye) - volume.radius_m});
@@ -32,13 +32,14 @@ std::vector<Posed> nearestFirst(const Picture& picture, const dvec3& eye, double
   return posed;
 }
 
-// Fills in the volumes nearest to the eye. Returns how far from it a place is surely in none that found no
-// room.
-double setUpShelter(const Picture& picture, const dvec3& eye, double after_s, shared::RainShelter& shelter) {
+}  // namespace
+
+double setUpShelter(std::span<const NearVolume> volumes, const dvec3& eye, double after_s,
+                    shared::RainShelter& shelter) {
   uint32_t planes = 0;
   double known_m = 1e30;
   shelter.volume_count = 0;
-  for (const Posed& posed : nearestFirst(picture, eye, after_s)) {
+  for (const Posed& posed : nearestFirst(volumes, eye, after_s)) {
     const auto count = static_cast<uint32_t>(posed.volume->planes.size());
     if (shelter.volume_count == shared::kRainNearVolumes || planes + count > shared::kRainNearPlanes) {
       known_m = std::min(known_m, posed.gap_m);
@@ -56,8 +57,6 @@ double setUpShelter(const Picture& picture, const dvec3& eye, double after_s, sh
   return known_m;
 }
 
-}  // namespace
-
 bool Picture::volumesFit() const {
   size_t planes = 0;
   for (const NearVolume& volume : volumes) planes += volume.planes.size();
@@ -67,7 +66,7 @@ bool Picture::volumesFit() const {
 void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns, StreakSetup& out) {
   const dvec3 eye = coneOf(view).eye_m;
   const double after_s = static_cast<double>(time_ns - picture.time_ns) * 1e-9;
-  const double known_m = setUpShelter(picture, eye, after_s, out.shelter);
+  const double known_m = setUpShelter(picture.volumes, eye, after_s, out.shelter);
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
     const ClassPicture& c = picture.classes[kind];
     const ClassLattice& lattice = classLattices()[kind];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "rain/hydrometeors.h"
@@ -57,9 +58,13 @@ struct StreakSetup {
   shared::RainShelter shelter;
   shared::RainView view;
 };
-// Of the volumes only the nearest find room, kRainNearVolumes with kRainNearPlanes in all. Where there are
-// more of them, streaks are drawn only as far as the first that found none: rain is seen less far, never in
-// the dry.
+// Fills in the volumes nearest to the eye that find room (kRainNearVolumes with kRainNearPlanes in all),
+// nearest first, as they stand then. Returns how far from the eye a place is surely in none that found no
+// room.
+double setUpShelter(std::span<const NearVolume> volumes, const glm::dvec3& eye_m, double after_s,
+                    shared::RainShelter& shelter);
+// Where not all volumes find room, streaks are drawn only as far as the first that found none: rain is seen
+// less far, never in the dry.
 void setUpStreaks(const Picture& picture, const ViewState& view, int64_t time_ns, StreakSetup& out);
 
 }  // namespace rg::rain

@@ -13,6 +13,7 @@
 
 #include "rain/motion.h"
 #include "rain/picture.h"
+#include "rain/region.h"
 #include "rain/volume.h"
 #include "tick.h"
 
@@ -82,6 +83,9 @@ class Shelter {
 
   // Adds the volumes that come nearer than `radius_m` to any of the eyes, for clipping streaks.
   void near(std::span<const glm::dvec3> eyes_m, double radius_m, std::vector<NearVolume>& out) const;
+  // Adds the volumes that any of the views looks into within `radius_m` of its eye and that are not too small
+  // in it to matter.
+  void seen(std::span<const Cone> views, double radius_m, std::vector<NearVolume>& out) const;
 
  private:
   struct Volume {

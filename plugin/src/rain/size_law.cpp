@@ -74,6 +74,17 @@ double SizeLaw::delivered_mm_h() const {
   return kMmPerHour * kSphere * n0_per_m3_mm * movingMoment(3, slope_per_mm, kSmallest_mm, kLargest_mm);
 }
 
+double SizeLaw::cover_per_m() const {
+  return n0_per_m3_mm > 0.0 ? 1e-6 * (std::numbers::pi / 4.0) * n0_per_m3_mm *
+                                  moment(2, slope_per_mm, kSmallest_mm, kLargest_mm)
+                            : 0.0;
+}
+
+double SizeLaw::meanSpeedSeen_mps() const {
+  return movingMoment(2, slope_per_mm, kSmallest_mm, kLargest_mm) /
+         moment(2, slope_per_mm, kSmallest_mm, kLargest_mm);
+}
+
 double SizeLaw::meanDiameter_mm() const {
   return moment(1, slope_per_mm, kSmallest_mm, kLargest_mm) /
          moment(0, slope_per_mm, kSmallest_mm, kLargest_mm);
@@ -88,8 +99,12 @@ double SizeLaw::quantile(double from_mm, double to_mm, double u) const {
   return rain::quantile(slope_per_mm, from_mm, to_mm, u);
 }
 
+double extinction_per_m(double rate_mm_h) {
+  return rate_mm_h > 0.0 ? 0.312e-3 * std::pow(rate_mm_h, 0.67) : 0.0;
+}
+
 double visibility_m(double rate_mm_h) {
-  return rate_mm_h > 0.0 ? 3000.0 / (0.312 * std::pow(rate_mm_h, 0.67)) : HUGE_VAL;
+  return rate_mm_h > 0.0 ? 3.0 / extinction_per_m(rate_mm_h) : HUGE_VAL;
 }
 
 }  // namespace rg::rain

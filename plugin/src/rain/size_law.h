@@ -40,15 +40,18 @@ struct SizeLaw {
   double flux(double from_mm, double to_mm) const;           // drops/(m2 s) through level ground
   double water_g_m3() const;
   double delivered_mm_h() const;
-  double meanDiameter_mm() const;  // of the drops in the air
+  double cover_per_m() const;  // of a view by the drops' disks, per metre of way: pi/4 times the sum of D^2
+  double meanSpeedSeen_mps() const;  // fall speed, weighted with the drops' disks
+  double meanDiameter_mm() const;    // of the drops in the air
   double meanDiameterReachingGround_mm() const;
 
   // The diameter below which the share u (0..1) of the drops between the two sizes lies.
   double quantile(double from_mm, double to_mm, double u) const;
 };
 
-// Meteorological range in rain, m: 3 / beta with beta = 0.312 R^0.67 per km (Weber et al. 2015); 5 %
-// contrast.
+// How much light rain takes out of a way through it: 0.312 R^0.67 per km (Weber et al. 2015).
+double extinction_per_m(double rate_mm_h);
+// Meteorological range in rain, m: 3 / extinction; 5 % contrast.
 double visibility_m(double rate_mm_h);
 
 }  // namespace rg::rain

@@ -1,0 +1,176 @@
+#include "rain/beyond_tiles.h"
+
+#include <algorithm>
+
+namespace rg::rain {
+namespace {
+
+using glm::vec3;
+using shared::kRainNoPlane, shared::RainTile;
+
+constexpr uint32_t kNoPlanes = kRainNoPlane | kRainNoPlane << 6 | kRainNoPlane << 12 | kRainNoPlane << 18;
+constexpr int kSamples = 5;  // along a tile's side, where its corners do not agree
+
+// Planes by how often they bind.
+class Votes {
+ public:
+  void add(uint32_t plane) {
+    if (plane != kRainNoPlane) ++count_[plane];
+  }
+  // The one with the most votes, which are taken from it.
+  uint32_t next() {
+    const auto most = std::ranges::max_element(count_);
+    if (*most == 0) return kRainNoPlane;
+    *most = 0;
+    return static_cast<uint32_t>(most - count_.begin());
+  }
+
+ private:
+  std::array<int, kRainNoPlane> count_{};
+};
+
+void put(uint32_t& word, int shift, uint32_t plane) {
+  word &= ~(63u << shift);
+  word |= plane << shift;
+}
+
+glm::uvec2 packed(uint32_t volume, uint32_t far, uint32_t near) {
+  glm::uvec2 words(kNoPlanes | 1u << 31 | volume << 24, kNoPlanes);
+  put(words.x, 0, far);
+  put(words.y, 6, near);
+  return words;
+}
+
+glm::uvec2 packed(uint32_t volume, Votes far, Votes near) {
+  glm::uvec2 words = packed(volume, far.next(), near.next());
+  for (const int shift : {6, 12, 18}) put(words.x, shift, far.next());
+  put(words.y, 0, far.next());
+  for (const int shift : {12, 18}) put(words.y, shift, near.next());
+  return words;
+}
+
+}  // namespace
+
+float Tiler::tileSide_px(const glm::ivec4& viewport_px) {
+  constexpr int kSide_px = 32, kMost = 256;  // along a side of the picture: 8192 px
+  return static_cast<float>(std::max(kSide_px, std::max(viewport_px.z, viewport_px.w) / kMost));
+}
+
+void Tiler::findSlopes(const shared::RainBeyond& beyond, std::span<const glm::vec4> planes) {
+  slopes_.clear();
+  for (const glm::vec4& plane : planes) {
+    const float middle = shared::rainPlaneBound(plane, vec3(beyond.ray_middle)),
+                by_x = shared::rainPlaneBound(plane, vec3(beyond.ray_right)),
+                by_y = shared::rainPlaneBound(plane, vec3(beyond.ray_up));
+    slopes_.push_back({middle - by_x - by_y, by_x, by_y, plane.w < 0.0f});
+  }
+}
+
+Tiler::Bound Tiler::boundAt(glm::vec2 from_corner) const {
+  Bound bound;
+  for (uint32_t i = 0; i < slopes_.size(); ++i) {
+    const Slope& slope = slopes_[i];
+    const float at = slope.at_corner + slope.by_x * from_corner.x + slope.by_y * from_corner.y;
+    if (slope.near) {
+      if (at < bound.enter) bound = {bound.leave, at, bound.far, i};
+    } else if (at > bound.leave) {
+      bound = {at, bound.enter, i, bound.near};
+    }
+  }
+  return bound;
+}
+
+// Of all planes, where a tile can know them.
+std::optional<glm::uvec2> Tiler::wordsOfAll(uint32_t volume) const {
+  const auto nears = static_cast<size_t>(std::ranges::count(slopes_, true, &Slope::near));
+  if (nears > shared::kRainTileNear || slopes_.size() - nears > shared::kRainTileFar) return {};
+  Votes far, near;
+  for (uint32_t i = 0; i < slopes_.size(); ++i) (slopes_[i].near ? near : far).add(i);
+  return packed(volume, far, near);
+}
+
+glm::uvec2 Tiler::wordsOf(uint32_t volume, int column, int row) const {
+  Votes far, near;
+  for (int y = 0; y < kSamples; ++y) {
+    for (int x = 0; x < kSamples; ++x) {
+      const glm::vec2 in_tile = glm::vec2(x, y) / static_cast<float>(kSamples - 1);
+      const Bound bound = boundAt((glm::vec2(column, row) + in_tile) * step_clip_);
+      far.add(bound.far);
+      near.add(bound.near);
+    }
+  }
+  return packed(volume, far, near);
+}
+
+void Tiler::addTo(std::vector<RainTile>& tiles, uint32_t volume) {
+  bounds_.clear();
+  for (int row = 0; row <= rows_; ++row) {
+    for (int column = 0; column <= columns_; ++column)
+      bounds_.push_back(boundAt(glm::vec2(column, row) * step_clip_));
+  }
+  const std::optional<glm::uvec2> all = wordsOfAll(volume);
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const Bound* below = &bounds_[static_cast<size_t>(row * (columns_ + 1) + column)];
+      const Bound* above = below + columns_ + 1;
+      const std::array<const Bound*, 4> corners{below, below + 1, above, above + 1};
+      const Bound& one = *corners[0];
+      // Where a plane binds is convex: what binds at all corners does so all over the tile.
+      const bool agreed = std::ranges::all_of(
+          corners, [&](const Bound* b) { return b->near == one.near && b->far == one.far; });
+      const bool missed =
+          agreed && std::ranges::all_of(corners, [](const Bound* b) { return b->enter <= b->leave; });
+      const bool behind_eye = std::ranges::all_of(
+          corners, [&](const Bound* b) { return b->enter <= 0.0f && b->near == one.near; });
+      if (missed || behind_eye) continue;
+      const auto tile = static_cast<size_t>(row * columns_ + column);
+      const uint32_t slot = counts_[tile];
+      if (slot == shared::kRainTileVolumes) continue;
+      ++counts_[tile];
+      const glm::uvec2 words = agreed ? packed(volume, one.far, one.near)
+                               : all  ? *all
+                                      : wordsOf(volume, column, row);
+      glm::uvec4& both = tiles[tile].bounds[slot / 2];
+      if (slot % 2 == 0) {
+        both.x = words.x;
+        both.y = words.y;
+      } else {
+        both.z = words.x;
+        both.w = words.y;
+      }
+    }
+  }
+}
+
+void Tiler::cut(const glm::ivec4& viewport_px, const shared::RainBeyond& beyond,
+                const shared::RainShelter& shelter, Tiles& out) {
+  const auto tile_px = static_cast<int>(beyond.scroll.w);
+  columns_ = (viewport_px.z + tile_px - 1) / tile_px;
+  rows_ = (viewport_px.w + tile_px - 1) / tile_px;
+  step_clip_ = 2.0f * static_cast<float>(tile_px) / glm::vec2(viewport_px.z, viewport_px.w);
+  const auto size = static_cast<size_t>(columns_ * rows_);
+  counts_.assign(size, 0);
+  all_.assign(size, RainTile{});
+  for (size_t i = 0; i < size; ++i) {
+    all_[i].place = static_cast<uint32_t>(i) % static_cast<uint32_t>(columns_) |
+                    static_cast<uint32_t>(i) / static_cast<uint32_t>(columns_) << 16;
+  }
+  for (uint32_t volume = 0; volume < shelter.volume_count; ++volume) {
+    const shared::RainVolume& v = shelter.volumes[volume];
+    // Planes are told apart by 6 bits, of which one value says "none".
+    findSlopes(beyond, std::span(shelter.planes + v.first, std::min(v.count, kRainNoPlane)));
+    addTo(all_, volume);
+  }
+  out.tiles.clear();
+  out.counts.fill(0);
+  for (size_t kind = 0; kind < kTileKinds.size(); ++kind) {
+    const uint32_t least = kind == 0 ? 0 : kTileKinds[kind - 1] + 1;
+    for (size_t i = 0; i < size; ++i) {
+      if (counts_[i] < least || counts_[i] > kTileKinds[kind]) continue;
+      out.tiles.push_back(all_[i]);
+      ++out.counts[kind];
+    }
+  }
+}
+
+}  // namespace rg::rain

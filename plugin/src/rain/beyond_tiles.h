@@ -1,0 +1,60 @@
+// The picture's tiles for the rain beyond: which volumes each looks into, and which of their planes bound
+// them there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "shared/rain_beyond.glsl"
+#include "shared/rain_drop.glsl"
+
+namespace rg::rain {
+
+// Tiles that know at most so many volumes are drawn together: most know few.
+inline constexpr std::array<uint32_t, 3> kTileKinds{1, 3, shared::kRainTileVolumes};
+
+struct Tiles {
+  std::vector<shared::RainTile> tiles;               // by kind
+  std::array<uint32_t, kTileKinds.size()> counts{};  // of each kind
+};
+
+// Covers a viewport. `beyond` has the view's rays; `shelter` the volumes, nearest first. Where a tile sees
+// more volumes than it can know, the farther ones are left out; of a volume that has more planes than a tile
+// can know (five far off, three near by: no box has), those that bind it in most of the tile.
+class Tiler {
+ public:
+  // 32 px, more where a viewport of absurd size would have too many.
+  static float tileSide_px(const glm::ivec4& viewport_px);
+  void cut(const glm::ivec4& viewport_px, const shared::RainBeyond& beyond,
+           const shared::RainShelter& shelter, Tiles& out);
+
+ private:
+  // In one direction: the plane that bounds a volume far off, and near by.
+  struct Bound {
+    float leave = 0.0f, enter = shared::kRainNoBound;
+    uint32_t far = shared::kRainNoPlane, near = shared::kRainNoPlane;
+  };
+  // A volume's plane: linear across the picture, as 1 / depth.
+  struct Slope {
+    float at_corner, by_x, by_y;  // at clip (-1, -1), and from there on
+    bool near;
+  };
+  void findSlopes(const shared::RainBeyond& beyond, std::span<const glm::vec4> planes);
+  Bound boundAt(glm::vec2 from_corner) const;
+  std::optional<glm::uvec2> wordsOfAll(uint32_t volume) const;
+  glm::uvec2 wordsOf(uint32_t volume, int column, int row) const;
+  void addTo(std::vector<shared::RainTile>& tiles, uint32_t volume);
+
+  int columns_ = 0, rows_ = 0;
+  glm::vec2 step_clip_{0.0f};
+  std::vector<Slope> slopes_;     // of one volume
+  std::vector<Bound> bounds_;     // of it, at all corners
+  std::vector<uint32_t> counts_;  // of volumes, by tile
+  std::vector<shared::RainTile> all_;
+};
+
+}  // namespace rg::rain

@@ -1,0 +1,197 @@
+// The laws of the rain beyond, and how it moves: without GL.
+#include "rain/beyond.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rain/beyond_pattern.h"
+#include "rain/size_law.h"
+#include "scene.h"
+
+namespace rg::rain::test {
+namespace {
+
+constexpr double kReach = 1.2 * 1663.0;  // the default settings'
+
+// What particles take of a way of `to_m` from the eye, size by size as streak.vert fades them.
+double takenByParticles(double rate_mm_h, double to_m) {
+  const SizeLaw law = SizeLaw::of(rate_mm_h);
+  double sum = 0.0;
+  constexpr int kSizes = 400, kSteps = 400;
+  for (int i = 0; i < kSizes; ++i) {
+    const double step_mm = (kLargest_mm - kSmallest_mm) / kSizes;
+    const double d_mm = kSmallest_mm + (i + 0.5) * step_mm;
+    const double cover_per_m = law.numberDensity(d_mm - 0.5 * step_mm, d_mm + 0.5 * step_mm) *
+                               glm::pi<double>() / 4.0 * d_mm * d_mm * 1e-6;
+    const double reach_m = kReach * d_mm * 1e-3;
+    double faded_m = 0.0;
+    for (int k = 0; k < kSteps; ++k)
+      faded_m += (1.0 - glm::smoothstep(0.6 * reach_m, reach_m, (k + 0.5) * to_m / kSteps)) * to_m / kSteps;
+    sum += cover_per_m * faded_m;
+  }
+  return sum;
+}
+
+double opticalDepth(double rate_mm_h, double gain, double to_m) {
+  const ParticlesShare particles = particlesShare(rate_mm_h, kReach);
+  shared::RainOpen open{};
+  shared::rainAddOpen(open, 0.0f, static_cast<float>(to_m), static_cast<float>(particles.mean_m));
+  const glm::vec4 depths = shared::rainOpticalDepths(
+      open, glm::vec4(extinction_per_m(rate_mm_h), gain * particles.at_eye_per_m, particles.mean_m, 1.0));
+  return static_cast<double>(depths.x + depths.y + depths.z + depths.w);
+}
+
+TEST(RainBeyond, withWhatParticlesTakeHasWebersExtinction) {
+  for (const double rate : {0.1, 1.0, 10.0, 100.0, 300.0}) {
+    for (const double to_m : {10.0, 30.0, 100.0, 500.0}) {
+      const double whole = extinction_per_m(rate) * to_m;
+      // The short form of what particles take is off by some per cent of it, where that is a third of all.
+      EXPECT_NEAR(opticalDepth(rate, 1.0, to_m) + takenByParticles(rate, to_m), whole, 0.03 * whole)
+          << rate << " mm/h to " << to_m << " m";
+    }
+  }
+}
+
+TEST(RainBeyond, movesAsTheDropsThatCoverMost) {
+  for (const double rate : {1.0, 25.0, 100.0}) {
+    const SizeLaw law = SizeLaw::of(rate);
+    double cover = 0.0, moving = 0.0;
+    constexpr int kSizes = 2000;
+    for (int i = 0; i < kSizes; ++i) {
+      const double step_mm = (kLargest_mm - kSmallest_mm) / kSizes, d_mm = kSmallest_mm + (i + 0.5) * step_mm;
+      const double here = law.numberDensity(d_mm - 0.5 * step_mm, d_mm + 0.5 * step_mm) * d_mm * d_mm;
+      cover += here * glm::pi<double>() / 4.0 * 1e-6;
+      moving += here * fallSpeed(d_mm) * glm::pi<double>() / 4.0 * 1e-6;
+    }
+    EXPECT_NEAR(law.cover_per_m(), cover, 1e-4 * cover);
+    EXPECT_NEAR(law.meanSpeedSeen_mps(), moving / cover, 1e-3);
+  }
+}
+
+TEST(RainBeyond, neverTakesLightBack) {
+  for (const double gain : {0.0, 1.0, 2.5, 50.0}) {
+    for (double to_m = 0.0; to_m < 30.0; to_m += 0.5) EXPECT_GE(opticalDepth(50.0, gain, to_m), 0.0);
+  }
+}
+
+TEST(RainBeyond, countsEachMetreOfOpenAirInOneLayer) {
+  shared::RainOpen open{};
+  shared::rainAddOpen(open, 10.0f, 20.0f, 1.0f);
+  shared::rainAddOpen(open, 30.0f, 25.0f, 1.0f);  // overlapped by what came before: nothing
+  shared::rainAddOpen(open, 39.0f, 140.0f, 1.0f);
+  EXPECT_FLOAT_EQ(open.near_m, 6.0f);
+  EXPECT_FLOAT_EQ(open.middle_m, 5.0f);
+  EXPECT_FLOAT_EQ(open.far_m, 60.0f);
+  EXPECT_FLOAT_EQ(open.haze_m, 40.0f);
+}
+
+// ---- motion ----
+
+BeyondPicture tickTo(Scene& scene, Beyond& beyond, int64_t index) {
+  for (; scene.index <= index; ++scene.index) beyond.tick(scene.tick(), WindProfile{});
+  BeyondPicture picture;
+  beyond.describe(kReach, picture);
+  return picture;
+}
+
+shared::RainBeyond blockOf(const BeyondPicture& picture, const ViewState& view, int64_t time_ns) {
+  shared::RainBeyond block;
+  EXPECT_TRUE(setUpBeyond(picture, view, time_ns, {}, 1.0, 0.3, 0.9, block));
+  return block;
+}
+
+// Turns of the pattern between two pictures less than a turn apart, the sense of the fall being positive.
+double turned(float from, float to) {
+  const double turns = static_cast<double>(from) - static_cast<double>(to);
+  return turns - std::floor(turns);
+}
+
+TEST(RainBeyond, movesByTimeOfDrawingAsItDoesByTicks) {
+  Scene scene = sceneWithView(20.0);
+  scene.views[0].eye_velocity_mps = {20, 0, 0};
+  Beyond beyond;
+  const BeyondPicture early = tickTo(scene, beyond, 100), late = tickTo(scene, beyond, 107);
+  const auto drawn = blockOf(early, scene.views[0], tickTimeNs(107)),
+             ticked = blockOf(late, scene.views[0], tickTimeNs(107));
+  for (glm::length_t layer = 0; layer < 3; ++layer) {
+    const double apart = turned(drawn.scroll[layer], ticked.scroll[layer]);
+    EXPECT_LT(std::min(apart, 1.0 - apart), 1e-5) << layer;  // as far as floats resolve a turn
+  }
+}
+
+TEST(RainBeyond, fartherRainMovesSlower) {
+  Scene scene = sceneWithView(20.0);
+  Beyond beyond;
+  const BeyondPicture picture = tickTo(scene, beyond, 10);
+  const auto now = blockOf(picture, scene.views[0], tickTimeNs(10)),
+             then = blockOf(picture, scene.views[0], tickTimeNs(11));
+  double before_rad = 1.0;
+  for (glm::length_t layer = 0; layer < 3; ++layer) {
+    const double moved_rad = turned(now.scroll[layer], then.scroll[layer]) * 2.0 * glm::pi<double>() /
+                             static_cast<double>(now.repeats[layer]) * static_cast<double>(now.repeats.w);
+    EXPECT_GT(moved_rad, 0.0);
+    EXPECT_LT(moved_rad, 0.6 * before_rad);  // layers are more than 1.6 times as far apart
+    before_rad = moved_rad;
+  }
+}
+
+TEST(RainBeyond, comesFromWhereTheEyeSeesDropsComeFrom) {
+  Scene scene = sceneWithView(20.0);
+  scene.views[0].eye_velocity_mps = {25, 0, 0};
+  Beyond beyond;
+  const auto block = blockOf(tickTo(scene, beyond, 1), scene.views[0], tickTimeNs(1));
+  const double fall_mps = SizeLaw::of(20.0).meanSpeedSeen_mps();
+  const dvec3 expected = glm::normalize(dvec3(25.0, 0.0, fall_mps));
+  EXPECT_LT(glm::distance(dvec3(block.axis), expected), 1e-5);
+  EXPECT_GT(fall_mps, 4.0);  // between the smallest drops' speed and the largest's
+  EXPECT_LT(fall_mps, 9.0);
+}
+
+TEST(RainBeyond, mapMovesAllThatIsEquallyFarAlike) {
+  // A drop that passes at distance r moves on the map by way / r, wherever it is seen: Mercator's projection.
+  for (double angle = 0.2; angle < 2.9; angle += 0.3) {
+    const double way = 1e-3;
+    const glm::vec3 here(std::cos(angle), std::sin(angle), 0.0),
+        there(std::cos(angle) - way, std::sin(angle), 0.0);
+    const glm::vec2 moved = shared::rainMap(there) - shared::rainMap(here);
+    EXPECT_NEAR(moved.x, 0.0f, 1e-6f);
+    EXPECT_NEAR(moved.y, way, 0.02 * way) << angle;  // floats resolve it to a per cent
+  }
+}
+
+TEST(RainBeyond, hasNothingToDrawWithoutRainShareOrView) {
+  Scene scene = sceneWithView(0.0);
+  Beyond beyond;
+  shared::RainBeyond block;
+  EXPECT_FALSE(setUpBeyond(tickTo(scene, beyond, 1), scene.views[0], 0, {}, 1.0, 0.3, 0.9, block));
+  scene.weather.rain_mm_h = 20.0;
+  const BeyondPicture picture = tickTo(scene, beyond, 3);
+  EXPECT_FALSE(setUpBeyond(picture, scene.views[0], 0, {.share = 0.0}, 1.0, 0.3, 0.9, block));
+  ViewState flat = scene.views[0];
+  flat.clipFromEye = glm::dmat4(std::nan(""));
+  EXPECT_FALSE(setUpBeyond(picture, flat, 0, {}, 1.0, 0.3, 0.9, block));
+}
+
+// ---- the pattern ----
+
+TEST(RainPattern, ofTheProjectsOwnIsAlwaysTheSameAndUsesItsRange) {
+  const RainPattern a = generatePattern(), b = generatePattern();
+  EXPECT_EQ(a.rgba, b.rgba);
+  EXPECT_GT(a.mean, 0.2);               // enough steps of 1/255 for what is below the mean
+  EXPECT_GT(a.greatest / a.mean, 2.0);  // streaks stand out
+  EXPECT_LT(a.greatest / a.mean, 3.3);  // and can be drawn in a downpour
+}
+
+TEST(RainPattern, isRefusedWhenOfNoUsableSizeOrWithoutRain) {
+  RainPattern out;
+  EXPECT_NE(makePattern(7, 64, std::vector<uint8_t>(4 * 7 * 64, 255), out), "");
+  EXPECT_NE(makePattern(64, 5000, {}, out), "");
+  EXPECT_NE(makePattern(8, 8, std::vector<uint8_t>(4 * 64, 0), out), "");
+  EXPECT_TRUE(out.rgba.empty());
+  EXPECT_EQ(makePattern(8, 8, std::vector<uint8_t>(4 * 64, 51), out), "");
+  EXPECT_DOUBLE_EQ(out.mean, 0.2);
+}
+
+}  // namespace
+}  // namespace rg::rain::test
