@@ -116,6 +116,7 @@ TEST(Ticks, lieWhereTheClockSays) {
 TEST(Scenario, allThatAreShippedLoad) {
   int loaded = 0;
   for (const auto& entry : std::filesystem::directory_iterator(RG_SOURCE_DIR "/scenarios")) {
+    if (entry.path().extension() != ".toml") continue;  // the list of keys lies beside them
     EXPECT_NO_THROW(loadScenario(entry.path().string(), {}, RG_SOURCE_DIR)) << entry.path();
     ++loaded;
   }
