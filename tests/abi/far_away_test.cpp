@@ -36,7 +36,7 @@ class FarAway : public GlTest {
     SmallScene scene(*plugin.api, 20000, habits);
     scene.rain_mm_h = rain_mm_h;
     scene.expect(scene.attach(GlContext::getProc));
-    scene.expect(scene.api.set_parameter(scene.instance, "rain.gain", 4.0));  // there is more to compare
+    scene.expect(scene.api.set_parameter(scene.instance, "rain.gain", 12.0));  // there is more to compare
     scene.expect(scene.api.set_parameter(scene.instance, "rain.beyond", beyond));
     const std::array<rg_glass_drop, 3> drops{
         {{0.0, 0.0, 0.02, 60.0}, {0.1, 0.05, 0.01, 50.0}, {-0.1, -0.08, 0.015, 70.0}}};
@@ -45,7 +45,7 @@ class FarAway : public GlTest {
       scene.expect(scene.step());
       scene.expect(scene.api.step_gpu(scene.instance));
     }
-    const std::array<float, 4> sky{0.04f, 0.05f, 0.06f, 1.0f}, wall{0.06f, 0.05f, 0.04f, 1.0f};
+    const std::array<float, 4> sky{0.2f, 0.25f, 0.3f, 1.0f}, wall{0.3f, 0.25f, 0.2f, 1.0f};
     const float farthest = habits.farthest(), at_wall = habits.storedDepth(wall_m);
     gl.ClearTexImage(color, 0, GL_RGBA, GL_FLOAT, sky.data());
     gl.ClearTexImage(depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &farthest);

@@ -67,7 +67,7 @@ TermsTested termsTestedBy(const std::string& scenario) {
 std::vector<std::string> shippedScenarios() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(RG_SOURCE_DIR "/scenarios"))
-    names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::ranges::sort(names);
   return names;
 }
