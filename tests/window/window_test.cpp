@@ -76,7 +76,7 @@ TEST_F(Window, keysChangeCameraWeatherAndWipers) {
   open("--scenario parked");
   ASSERT_TRUE(titleSays("rain 10.0 mm/h  wipers off  cockpit"));
   press("c");
-  EXPECT_TRUE(titleSays("outside")) << title();
+  EXPECT_TRUE(titleSays("bumper")) << title();
   press("r");
   EXPECT_TRUE(titleSays("rain 15.8 mm/h")) << title();
   press("r", true);
@@ -126,7 +126,7 @@ TEST_F(Window, followsItsSize) {
   ASSERT_NE(window_, 0U);
   display_->resize(window_, 200, 240);
   press("c");  // drawn anew after the size came
-  ASSERT_TRUE(titleSays("outside")) << title();
+  ASSERT_TRUE(titleSays("bumper")) << title();
   press("Escape");
   expectCleanEnd();
   EXPECT_EQ(report(folder_)["size"], nlohmann::json({200, 240}));
