@@ -51,6 +51,7 @@ rg_result guarded(rg_instance* instance, Call&& call) {
     return failed(instance, RG_ERROR_INTERNAL, "unknown failure");
   }
 }
+
 void checkId(uint32_t id, const char* what);
 
 template <typename T>
@@ -64,10 +65,9 @@ T* checkOut(T* out, const char* name) {
 template <typename T>
 void writeStruct(T* out, T value, const char* name) {
   checkOut(out, name);
-  if (out->struct_size < sizeof(T) || out->struct_size > kLargestStruct)
-    refuse(std::string(name) + ".struct_size is wrong", RG_ERROR_BAD_STRUCT);
+  const size_t size = knownSize<T>(out->struct_size, name);
   value.struct_size = out->struct_size;
-  std::memcpy(out, &value, sizeof(T));
+  std::memcpy(out, &value, size);
 }
 
 glm::dvec3 finiteVector(const double v[3], const char* name);

@@ -118,12 +118,13 @@ TEST_F(SecondHost, drawsTheSameRainAsHostSim) {
   const Rgb second = secondHost(kRain_mm_h);
   EXPECT_LE(greatestDifference(rain, second), 1);
   EXPECT_LE(greatestDifference(dry, secondHost(0)), 1);
-  // What is compared is rain, seen well (at thirty times what may differ), and hidden by the wall in both.
+  // What is compared is rain, seen well (at thirty times what may differ), and in both mostly hidden by the
+  // wall, before which some falls too.
   EXPECT_GT(greatestDifference(rain, dry), 30);
   EXPECT_GT(greatestDifference(other, second), 30) << "other drops look the same";
   for (const Rgb* picture : {&rain, &second}) {
     EXPECT_GT(wetPixels(*picture, dry, kMiddle, kWidth), kHalf_px / 2);
-    EXPECT_LT(wetPixels(*picture, dry, 0, kMiddle), kHalf_px / 4);
+    EXPECT_LT(wetPixels(*picture, dry, 0, kMiddle), 2 * kHalf_px / 5);
   }
 }
 
