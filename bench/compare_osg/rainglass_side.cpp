@@ -31,6 +31,7 @@ RainglassSide::RainglassSide(const GladGLContext& gl, uint32_t framebuffer, cons
   api_->default_gl_info(&info);
   info.get_proc = getProc;
   check(api_->attach_gl(instance_, &info));
+  check(api_->set_parameter(instance_, "rain.beyond", 0.0));  // OpenSceneGraph draws no far rain either
   gl_.GenQueries(1, &query_);
 }
 
