@@ -5,12 +5,13 @@
 
 #include "frame.h"
 #include "glass/pane_map.h"
+#include "gravity.h"
 #include "rain/hydrometeors.h"
 
 namespace rg {
 namespace {
 
-constexpr glm::dvec3 kGravity_mps2{0.0, 0.0, -9.81};
+constexpr glm::dvec3 kWeight_mps2{0.0, 0.0, -kGravity_mps2};
 constexpr int64_t kShelterTicks =
     6;                          // shelter of a pane is asked anew 20 times a second: 1.4 m of way at 100 km/h
 constexpr int kSizeSteps = 16;  // quadrature of a class's mean volume
@@ -106,7 +107,7 @@ void Frame::tickGlass(const Tick& tick) {
     glass::PaneTick t;
     const glm::dquat vehicleFromWorld = glm::conjugate(vehicle->pose.orientation);
     t.index = ++p.tick;
-    t.acceleration_mps2 = vehicleFromWorld * (kGravity_mps2 - vehicle->acceleration_mps2);
+    t.acceleration_mps2 = vehicleFromWorld * (kWeight_mps2 - vehicle->acceleration_mps2);
     t.air_mps =
         vehicleFromWorld * (wind_profile_.air_share * tick.weather.wind_mps - vehicle->pose.velocity_mps);
     t.down = vehicleFromWorld * glm::dvec3(0.0, 0.0, -1.0);

@@ -83,11 +83,13 @@ RG_FN vec3 rainSwing(RainDrop drop, RainView view, float after_s) {
   return kRainSwing * drop.diameter_m * vec3(rainWave(phase + 0x40000000u), side * rainWave(phase), 0.0f);
 }
 
+RG_CONST float kRainGravity_mps2 = 9.81f;
+
 // How far from its place (rainPlace) a particle is `after_s` after the picture's time, world axes.
 RG_FN vec3 rainMoved(RainDrop drop, RainClass c, RainView view, float after_s) {
   if (c.base.w == kRainIsBouncedHail) {
     float flown_s = float(int(view.now - drop.fraction_xy)) * (view.tick_s / kRainEndUnits) + after_s;
-    return rainBounceVelocity(drop.id) * flown_s - vec3(0.0f, 0.0f, 4.905f * flown_s * flown_s);
+    return rainBounceVelocity(drop.id) * flown_s - vec3(0.0f, 0.0f, 0.5f * kRainGravity_mps2 * flown_s * flown_s);
   }
   vec3 moved = xyz(c.velocity_reach) * after_s;
   if (c.base.w == kRainIsSnow || c.base.w == kRainIsMeltingSnow) moved += rainSwing(drop, view, after_s);

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "gravity.h"
 #include "measure.h"
 #include "rain/hail_law.h"
 

@@ -44,7 +44,7 @@ class StreakPicture : public rg::test::GlTest {
 
   struct Shown {
     int width = 320, height = 180;
-    float gain = 0.0f;  // 0: the default
+    float gain = 6.0f;
     float depth = 1.0f;
     bool soft = true;
   };
@@ -76,7 +76,7 @@ class StreakPicture : public rg::test::GlTest {
                       1.0f};
     request.lighting.sky_radiance = glm::vec3(0.8f);
     request.lighting.ground_radiance = glm::vec3(0.25f);
-    if (shown.gain > 0.0f) request.gain = shown.gain;
+    request.gain = shown.gain;
     renderer.draw(request);
     return rg::test::readTexture(loaded->gl, colour.name());
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gravity.h"
 #include "rain/hail_law.h"
 #include "rain/standing.h"
 

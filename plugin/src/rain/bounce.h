@@ -22,7 +22,6 @@ struct Flight {
   glm::dvec3 place_m{0.0}, velocity_mps{0.0};
   double lasts_s = 0.0;
 };
-inline constexpr double kGravity_mps2 = 9.81;
 
 // How it flies off what it hit: a volume's face, resting or moving, else the ground. It ends where it comes
 // down to the ground or meets a volume, after kLongestFlight_s at most. lasts_s 0: nothing is there to bounce

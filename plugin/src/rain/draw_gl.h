@@ -53,7 +53,7 @@ struct RainDraw {
   RainLighting lighting;
   // How much stronger than in nature a streak covers what is behind it. 1 = physical (Garg & Nayar), for
   // camera-sensor work; a 2 mm drop exposed for 1/60 s then changes what is behind it by about 1 %.
-  float gain = 6.0f;
+  float gain = 1.0f;
 };
 
 // The host's target as rain is drawn into it, and light and view as shaders want them.

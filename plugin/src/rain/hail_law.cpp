@@ -4,12 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "gravity.h"
+
 namespace rg::rain {
 namespace {
 
 using glm::dvec3;
 
-constexpr double kStone_kg_m3 = 900.0, kAir_kg_m3 = 1.2, kDrag = 0.6, kGravity_mps2 = 9.81;
+constexpr double kStone_kg_m3 = 900.0, kAir_kg_m3 = 1.2, kDrag = 0.6;
 constexpr double kFlattest_per_mm = 0.15, kSteepest_per_mm = 1.0;
 
 // 0..1 by id, another one for each `which`.

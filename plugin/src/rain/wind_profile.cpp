@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gravity.h"
+
 namespace rg::rain {
 namespace {
 
 constexpr double kStatedAt_m = 10.0;
-constexpr double kGravity_mps2 = 9.81;
 
 // So that the last digits of a machine's log do not decide where drops are.
 double rounded(double share) { return std::round(share * 0x1p20) * 0x1p-20; }
