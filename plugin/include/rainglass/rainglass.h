@@ -161,7 +161,7 @@ typedef struct rg_weather {
   double snow_mm_h;     /* as water, 0 .. 300; default 0. Beside rain it is sleet; from 0 to +2 deg C flakes
                            melt as they fall: smaller, faster and paler. Parameter precipitation.by_temperature
                            shares rain and snow out anew by temperature and humidity. On panes flakes melt at
-                           once,     as on heated, wiped glass: each is caught as the drop of its water */
+                           once, as on heated, wiped glass: each is caught as the drop of its water */
   double wind_mps[3];   /* velocity of the air, world axes, each within +-100; default 0. Gusts swing about it
                            (parameter wind.gust_share); at drops and glass, or at 10 m (wind.roughness_m) */
   double temperature_c; /* -60 .. 60; default 12 */
@@ -279,8 +279,9 @@ typedef struct rg_wiper_info {
 
 typedef enum rg_color_space { RG_LINEAR_HDR = 0, RG_SRGB = 1 } rg_color_space;
 
-/* Where to draw. The colour behind is read from `color_texture` where given, else copied from the
- * framebuffer. */
+/* Where to draw. Streaks look at `color_texture`, where given, for how dark it is behind them (before the
+ * dark less of parameter rain.gain is wanted). The colour behind glass is read from it too, else copied from
+ * the framebuffer. */
 typedef struct rg_target {
   uint32_t struct_size;
   uint32_t framebuffer;   /* complete, single-sampled in this build, colour attachment 0 drawn */
