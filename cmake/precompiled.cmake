@@ -12,3 +12,12 @@ function(rg_precompile target)
     target_precompile_headers(${target} PRIVATE ${RG_COMMON_HEADERS} ${P_HEADERS})
   endif()
 endfunction()
+
+# rg_compile_together(TARGET): several files at a time, in builds that are made from scratch more often than edited: what their headers instantiate
+# is then compiled once for them all, which halves the time. The preset `debug` compiles file by file, so that an edit costs one.
+function(rg_compile_together target)
+  if(RG_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL Debug)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # GCC takes the files, which are included, for headers
+  endif()
+endfunction()

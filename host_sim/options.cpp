@@ -109,4 +109,11 @@ Options parseOptions(int argc, const char* const* argv, bool& done) {
   return o;
 }
 
+void makeOutFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error))
+    throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
+}
+
 }  // namespace host

@@ -28,4 +28,7 @@ struct Options {
 // Throws InputError with one line. `done` is set when help was asked for and printed.
 Options parseOptions(int argc, const char* const* argv, bool& done);
 
+// Makes the folder of --out where there is none; throws InputError where it cannot be made.
+void makeOutFolder(const std::filesystem::path& folder);
+
 }  // namespace host

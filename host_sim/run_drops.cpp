@@ -13,8 +13,6 @@
 namespace host {
 namespace {
 
-using Json = nlohmann::json;
-
 // As the file says: pane through the world's origin, u right, v up the pane; the eye looks along +x.
 struct DropList {
   double angle_rad = 0.0;
@@ -23,7 +21,8 @@ struct DropList {
   std::vector<rg_glass_drop> drops;
 };
 
-double number(const Json& object, const char* key, double least, double most, const std::string& where) {
+double number(const nlohmann::json& object, const char* key, double least, double most,
+              const std::string& where) {
   if (!object.is_object() || !object.contains(key) || !object[key].is_number())
     throw InputError(where + "." + key + ": must be a number");
   const double value = object[key].get<double>();
@@ -38,13 +37,14 @@ DropList readDrops(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::error_code error;
   if (!in || !std::filesystem::is_regular_file(file, error)) throw InputError(name + ": cannot be read");
-  const Json json = Json::parse(in, nullptr, false);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object()) throw InputError(name + ": is not a JSON object");
   DropList list;
   constexpr double kRad = 3.14159265358979323846 / 180.0;
   list.angle_rad =
-      number(json.value("pane", Json()), "angle_from_horizontal_deg", 0.0, 90.0, name + ": pane") * kRad;
-  const Json eye = json.value("eye_m", Json());
+      number(json.value("pane", nlohmann::json()), "angle_from_horizontal_deg", 0.0, 90.0, name + ": pane") *
+      kRad;
+  const nlohmann::json eye = json.value("eye_m", nlohmann::json());
   if (!eye.is_array() || eye.size() != 3) throw InputError(name + ": eye_m must be three numbers");
   for (size_t i = 0; i < 3; ++i) {
     if (!eye[i].is_number() || !(std::abs(eye[i].get<double>()) <= 100.0))
@@ -52,7 +52,7 @@ DropList readDrops(const std::filesystem::path& file) {
     list.eye_m[static_cast<int>(i)] = eye[i].get<double>();
   }
   list.fov_rad = number(json, "horizontal_fov_deg", 1.0, 170.0, name + ": ") * kRad;
-  const Json drops = json.value("drops", Json());
+  const nlohmann::json drops = json.value("drops", nlohmann::json());
   if (!drops.is_array() || drops.empty()) throw InputError(name + ": drops must be a list");
   for (size_t i = 0; i < drops.size(); ++i) {
     const std::string where = name + ": drops[" + std::to_string(i) + "]";
@@ -93,8 +93,7 @@ int runDrops(const Options& options) {
   const DropList list = readDrops(options.drops);
   if (options.environment.empty()) throw InputError("--drops needs --environment FILE.hdr");
   const HdrImage hdr = loadHdr(options.environment);
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
+  makeOutFolder(options.out);
   const auto context = makeHeadlessContext();
   Renderer renderer(*context);
   renderer.setEnvironment(hdr.rgb, hdr.width_px, hdr.height_px);

@@ -15,13 +15,6 @@
 namespace host {
 namespace {
 
-void makeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error))
-    throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
-}
-
 void showProgress(double time_s, double seconds, uint64_t frames, double wall_s) {
   if (isatty(2) == 0) return;
   const double left_s = time_s > 0.0 ? wall_s / time_s * (seconds - time_s) : 0.0;
@@ -34,7 +27,7 @@ void showProgress(double time_s, double seconds, uint64_t frames, double wall_s)
 int runHeadless(const Options& options) {
   const Scenario scenario = chosenScenario(options);
   Models models = loadModels(scenario);
-  makeFolder(options.out);
+  makeOutFolder(options.out);
   const auto context = makeHeadlessContext();
   Stage stage(options, scenario, std::move(models), *context);
   const Budget budget = options.budget.empty()

@@ -37,13 +37,6 @@ void refuseWhatNeedsNoWindow(const Options& options) {
                      " needs --headless: a window draws when it can, not at given times");
 }
 
-void makeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error))
-    throw InputError("--out " + folder.string() + ": is not a folder and cannot be made one");
-}
-
 class WindowRun {
  public:
   WindowRun(const Options& options, const Scenario& scenario, Models models)
@@ -192,7 +185,7 @@ int runWindow(const Options& options) {
   refuseWhatNeedsNoWindow(options);
   const Scenario scenario = chosenScenario(options);
   Models models = loadModels(scenario);
-  makeFolder(options.out);
+  makeOutFolder(options.out);
   for (const KeyHelp& help : kKeyHelp) std::printf("%-12s  %s\n", help.keys, help.effect);
   std::fflush(stdout);
   return WindowRun(options, scenario, std::move(models)).run();

@@ -112,13 +112,15 @@ void Environment::draw(const Sky& sky) {
   } else {
     const auto cover = static_cast<float>(cloudCover(sky));
     const auto zenith = static_cast<float>(overcastZenith(sky));
+    const auto day = static_cast<float>(daylight(sky));
     const glm::vec3 to_sun = glm::normalize(sky.to_sun);
     // Level ground under the sky: overcast 7/9 pi L, clear about 12 klx of sky, and the sun.
     const glm::vec3 irradiance =
-        glm::mix(glm::vec3(11.0F, 12.0F, 14.0F), glm::vec3(zenith * 7.0F / 9.0F * kPi), cover) +
+        glm::mix(glm::vec3(11.0F, 12.0F, 14.0F) * day, glm::vec3(zenith * 7.0F / 9.0F * kPi), cover) +
         sunIrradiance(sky) * std::max(to_sun.z, 0.0F);
     sky_program_.set("u_cover", cover);
     sky_program_.set("u_zenith", zenith);
+    sky_program_.set("u_day", day);
     sky_program_.set("u_to_sun", to_sun);
     sky_program_.set("u_ground", kGroundAlbedo * irradiance / kPi);
     faces(sky_program_, sky_, 0, kSkySize);

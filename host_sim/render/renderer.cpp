@@ -21,6 +21,8 @@ constexpr float kGlow = 6.0F;
 /// From below the ground nothing hides what is far, so all of it would be drawn; and far ground has left the
 /// plane.
 constexpr float kMirrorReach_m = 120.0F;
+/// What a driver is adapted to at night, 1000 cd/m^2: a road that lamps light (CIE 115:2010, class M3).
+constexpr double kLitRoad = 1.0e-3;
 /// Share of the light outside that lamps and walls keep up in the darkest shelter.
 constexpr double kBounceInShelter = 0.02;
 /// What is seen from a shelter is more than the mean over all directions: its mouth lies ahead, at the height
@@ -412,8 +414,9 @@ LightSummary Renderer::lighting() const {
 double Renderer::adaptingLuminance(glm::dvec3 eye_m) const {
   const glm::vec3 around = 0.5F * (self_->environment.skyRadiance() + self_->environment.groundRadiance());
   const double open = glm::dot(glm::dvec3(around), glm::dvec3(0.2126, 0.7152, 0.0722));
-  return open *
-         std::pow(kBounceInShelter + (1.0 - kBounceInShelter) * skyVisibility(eye_m), kPartOfAdaptation);
+  const double seen =
+      open * std::pow(kBounceInShelter + (1.0 - kBounceInShelter) * skyVisibility(eye_m), kPartOfAdaptation);
+  return std::max(seen, kLitRoad);
 }
 
 void Renderer::setTiming(bool on) { self_->timing = on; }

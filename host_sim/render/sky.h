@@ -22,9 +22,12 @@ double cloudCover(const Sky& sky);
 /// factor of 3 to 10 that Rasmussen et al. (1999) found (coefficients unsourced). Hail is too sparse to
 /// count.
 double extinction(const Sky& sky);
-/// Radiance of an overcast zenith, 1000 cd/m^2: darker the more falls.
+/// Light from above at this height of the sun as a share of that at 35 degrees, down to the glow of lamps on
+/// clouds at night (Seidelmann 1992, after Janiczek & DeYoung 1987).
+double daylight(const Sky& sky);
+/// Radiance of an overcast zenith, 1000 cd/m^2: darker the more falls, and the lower the sun stands.
 double overcastZenith(const Sky& sky);
-/// Irradiance on a plane across the sun's rays, 1000 lx, clouds counted.
+/// Irradiance on a plane across the sun's rays, 1000 lx, clouds and air counted: none once it has set.
 glm::vec3 sunIrradiance(const Sky& sky);
 
 }  // namespace host

@@ -3,6 +3,7 @@ in vec2 v_at;
 layout(location = 0) out vec4 out_colour;
 uniform float u_cover;        // clouds, 0 clear .. 1 overcast
 uniform float u_zenith;       // radiance of an overcast zenith
+uniform float u_day;          // a clear sky's light, relative to that at the usual height of the sun
 uniform vec3 u_to_sun;
 uniform vec3 u_ground;        // radiance of the ground
 
@@ -42,7 +43,7 @@ void main() {
                vec3(60.0, 52.0, 40.0) * pow(toward, 900.0);
   float fair = smoothstep(0.52, 0.75, streaks) * smoothstep(0.02, 0.2, height);
   clear = mix(clear, vec3(9.0, 9.0, 9.2), 0.8 * fair);
-  vec3 sky = mix(clear, overcast, u_cover);
+  vec3 sky = mix(u_day * clear, overcast, u_cover);
   // Ground, its far part the colour of the air.
   out_colour = vec4(mix(sky, u_ground, smoothstep(0.0, -0.12, to.z)), 1.0);
 }

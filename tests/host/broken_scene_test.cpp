@@ -4,24 +4,16 @@
 #include <limits>
 
 #include "broken_files.h"
+#include "loaded.h"
 #include "scene/scene.h"
 
 namespace {
 
 using files::Bytes;
+using files::complaint;
 using files::Gltf;
 using files::Json;
 using files::TempFolder;
-
-/// What loading the file says; empty when it loads.
-std::string complaint(const std::filesystem::path& file) {
-  try {
-    host::loadScene(file);
-    return "";
-  } catch (const host::SceneError& error) {
-    return error.what();
-  }
-}
 
 void expectOneLine(const std::string& message, const std::string& file, const std::string& expected) {
   EXPECT_EQ(message.rfind(file + ": ", 0), 0U) << "names the file first: " << message;

@@ -6,23 +6,16 @@
 #include <random>
 
 #include "gltf_files.h"
+#include "loaded.h"
 #include "scene/scene.h"
 
 namespace {
 
 using files::Bytes;
+using files::complaint;
 using files::Gltf;
 using files::Json;
 using files::TempFolder;
-
-std::string complaint(const std::filesystem::path& file) {
-  try {
-    host::loadScene(file);
-    return "";
-  } catch (const host::SceneError& error) {
-    return error.what();
-  }
-}
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -6,21 +6,18 @@
 #include <cmath>
 
 #include "gltf_files.h"
+#include "loaded.h"
 
 namespace {
 
+using files::expectNear;
 using files::Gltf;
+using files::kRounding;
+using files::load;
 using files::TempFolder;
 using host::Node;
 using host::Primitive;
 using host::Scene;
-
-constexpr float kRounding = 1e-5F;  // products of a few floats near 1
-
-Scene load(const Gltf& g) {
-  const TempFolder folder;
-  return host::loadScene(folder.write("model.glb", g.glb()));
-}
 
 const Node& named(const Scene& scene, const char* name) {
   const int index = scene.findNode(name);
@@ -30,10 +27,6 @@ const Node& named(const Scene& scene, const char* name) {
 
 const Primitive& firstPrimitive(const Scene& scene, const char* node) {
   return scene.meshes.at(static_cast<std::size_t>(named(scene, node).mesh)).primitives.at(0);
-}
-
-void expectNear(const glm::vec3& a, const glm::vec3& b) {
-  EXPECT_LT(glm::distance(a, b), kRounding) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
 /// One primitive of four vertices in the plane z = 0 with its mode, indices and attributes to be chosen.

@@ -6,23 +6,16 @@
 #include <cmath>
 
 #include "gltf_files.h"
+#include "loaded.h"
 
 namespace {
 
+using files::expectNear;
+using files::kRounding;
+using files::load;
 using files::TempFolder;
 
-constexpr float kRounding = 1e-5F;  // products of a few floats near 1
-
-host::Scene load(const files::Gltf& g) {
-  const TempFolder folder;
-  return host::loadScene(folder.write("model.glb", g.glb()));
-}
-
 host::CarView car() { return host::carView(load(files::wholeCar())); }
-
-void expectNear(const glm::vec3& a, const glm::vec3& b) {
-  EXPECT_LT(glm::distance(a, b), kRounding) << a.x << ' ' << a.y << ' ' << a.z;
-}
 
 TEST(Views, framesAreRightHandedTurns) {
   expectNear(glm::vec3(host::vehicleFromGltf() * glm::vec4(1, 2, 3, 1)), {3, 1, 2});

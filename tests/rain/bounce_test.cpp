@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kVelocityStep_mps = 0.15;  // of a record: half of it an axis is rounding
 
-void setBox(Shelter& shelter, uint32_t id, const dvec3& low, const dvec3& high, uint32_t vehicle = 0) {
+void setShelterBox(Shelter& shelter, uint32_t id, const dvec3& low, const dvec3& high, uint32_t vehicle = 0) {
   const auto corners = boxCorners(low, high);
   VolumeInfo info;
   info.vertices = corners;
@@ -55,7 +55,7 @@ TEST(Bounce, offNothingIsNone) {
 
 TEST(Bounce, offARoofEndsOnTheGroundBesideIt) {
   Shelter shelter;
-  setBox(shelter, 1, {-1, -1, 2}, {1, 1, 2.2});
+  setShelterBox(shelter, 1, {-1, -1, 2}, {1, 1, 2.2});
   shelter.advance(0.0, {});
   Impact impact = impactAt({0.98, -0.98, 2.2}, 7);
   impact.velocity_mps.x = 10.0;
@@ -68,7 +68,7 @@ TEST(Bounce, offARoofEndsOnTheGroundBesideIt) {
 // driver sees it.
 TEST(Bounce, offAMovingBodyLosesEnergyInItsFrame) {
   Shelter shelter;
-  setBox(shelter, 1, {-2, -0.8, 0.2}, {2, 0.8, 1.5}, 7);
+  setShelterBox(shelter, 1, {-2, -0.8, 0.2}, {2, 0.8, 1.5}, 7);
   VehicleState car;
   car.id = 7;
   car.pose.velocity_mps = {20, 0, 0};
@@ -90,7 +90,7 @@ TEST(Bounce, entersNoVolume) {
   Shelter shelter;
   const std::vector<std::pair<dvec3, dvec3>> boxes = {
       {{-3, -3, 0}, {-1, 3, 3}}, {{1, -3, 0}, {3, 3, 1}}, {{-1, -3, 2.5}, {1, 3, 3}}};
-  for (uint32_t i = 0; i < boxes.size(); ++i) setBox(shelter, i + 1, boxes[i].first, boxes[i].second);
+  for (uint32_t i = 0; i < boxes.size(); ++i) setShelterBox(shelter, i + 1, boxes[i].first, boxes[i].second);
   shelter.advance(0.0, {});
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> one(-1.0, 1.0);

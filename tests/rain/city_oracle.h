@@ -16,6 +16,11 @@
 
 namespace rg::rain::test {
 
+// Told from the oracle by rounding alone: 20 um of the floats that its hulls are made of; and half a
+// millimetre by which a turning body's chords leave the bent way. Where a way comes in at more than 6 deg to
+// the face, the former is less than 1 mm of it.
+constexpr double kRounding_m = 5e-5, kTurning_m = 0.6e-3;
+
 // A body that goes its way steadily: where it is at time t.
 struct Course {
   dvec3 from_m{0.0}, velocity_mps{0.0};

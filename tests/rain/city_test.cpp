@@ -13,7 +13,7 @@ namespace rg::rain::test {
 namespace {
 
 // As the shelter's own oracle, and the 8 us of the clock by which ends are told.
-constexpr double kRounding_m = 5e-5, kTurning_m = 0.6e-3, kEndStep_s = kTickSeconds / 1024.0;
+constexpr double kEndStep_s = kTickSeconds / 1024.0;
 
 struct City {
   std::mt19937_64 random{41};

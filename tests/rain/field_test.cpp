@@ -102,14 +102,14 @@ struct Roof {
   dvec3 low, high;
 };
 bool anyInside(const std::vector<Streak>& streaks, const std::vector<Roof>& roofs, const dvec3& car) {
-  constexpr double kRounding_m = 2e-4;  // of float places 20 m from the eye, and of ends told to 8 us
+  constexpr double kOff_m = 2e-4;  // of float places 20 m from the eye, and of ends told to 8 us
   for (const Streak& s : streaks) {
     for (int k = 0; k <= 16; ++k) {
       const dvec3 p = s.from_m + (s.to_m - s.from_m) * (k / 16.0);
       for (size_t i = 0; i < roofs.size(); ++i) {
         const dvec3 q = i == 0 ? p - car : p;
-        if (glm::all(glm::greaterThan(q, roofs[i].low + kRounding_m)) &&
-            glm::all(glm::lessThan(q, roofs[i].high - kRounding_m)))
+        if (glm::all(glm::greaterThan(q, roofs[i].low + kOff_m)) &&
+            glm::all(glm::lessThan(q, roofs[i].high - kOff_m)))
           return true;
       }
     }

@@ -13,8 +13,6 @@
 namespace rg::rain::test {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 Rates only(Hydrometeor hydrometeor, double rate_mm_h) {
   Rates rates;
   rates[hydrometeor] = rate_mm_h;
@@ -219,13 +217,13 @@ TEST(Hail, losesEnergyInEveryBlowAndComesBackOffTheSurface) {
 
 TEST(Hydrometeors, nonsenseRatesCountAsNoneOrTheMost) {
   WeatherState weather;
-  weather.rain_mm_h = kNan;
+  weather.rain_mm_h = std::numeric_limits<double>::quiet_NaN();
   weather.snow_mm_h = -3.0;
-  weather.hail_mm_h = kNan;
+  weather.hail_mm_h = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(ratesOf(weather), Rates{});
   weather = {};
   weather.snow_mm_h = 1e30;
-  weather.temperature_c = kNan;
+  weather.temperature_c = std::numeric_limits<double>::quiet_NaN();
   weather.hail_mm_h = std::numeric_limits<double>::infinity();
   EXPECT_EQ(ratesOf(weather)[Hydrometeor::kSnow], 300.0);
   EXPECT_EQ(ratesOf(weather)[Hydrometeor::kHail], 300.0);

@@ -109,7 +109,7 @@ TEST_P(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
   const bool cuts = motion.speed_mps < 20.0;
   const int ticks_a_picture = cuts ? 12 : static_cast<int>(std::ceil(8.3 / motion.speed_mps / kTickSeconds));
   constexpr int kPictures = 100, kCells = 64;
-  constexpr double kSigmas = 4.0;  // 16 statistics: one in a thousand seeds fails
+  constexpr double kErrors = 4.0;  // 16 statistics: one in a thousand seeds fails
   Field field({.capacity = 200000, .seed = 5});
   Scene scene = sceneWithView(motion.rate_mm_h);
   const SizeLaw law = SizeLaw::of(motion.rate_mm_h);
@@ -147,13 +147,13 @@ TEST_P(Chance, cellsOfTheViewVolumeHoldPoissonCounts) {
   }
   for (size_t g = 0; g < kGroups; ++g) {
     const double k = kPictures * kCells;
-    EXPECT_NEAR(spread[g], k, kSigmas * std::sqrt(k * (2.0 + 1.0 / mean[g])))
+    EXPECT_NEAR(spread[g], k, kErrors * std::sqrt(k * (2.0 + 1.0 / mean[g])))
         << "group " << g << ", mean " << mean[g];
     double all = 0.0, chi_square = 0.0;
     for (const double n : total[g]) all += n;
     for (const double n : total[g]) chi_square += (n - all / kCells) * (n - all / kCells) / (all / kCells);
     ASSERT_GT(all / kCells, 20.0);
-    EXPECT_NEAR(chi_square, kCells - 1.0, kSigmas * std::sqrt(2.0 * (kCells - 1.0))) << "group " << g;
+    EXPECT_NEAR(chi_square, kCells - 1.0, kErrors * std::sqrt(2.0 * (kCells - 1.0))) << "group " << g;
   }
 }
 

@@ -13,7 +13,7 @@ constexpr double kCeilingAboveEye_m = 10.0;  // the field's: there a new rate be
 constexpr int kFields = 3, kTicks = 720;
 constexpr int64_t kChange = 60;  // the tick of the change
 
-struct Course {
+struct RateCourse {
   const char* name;
   double before_mm_h, after_mm_h;
   int ramp_ticks;  // 1: a step
@@ -23,7 +23,7 @@ struct Course {
     return std::lerp(before_mm_h, after_mm_h, done);
   }
 };
-std::ostream& operator<<(std::ostream& out, const Course& c) { return out << c.name; }
+std::ostream& operator<<(std::ostream& out, const RateCourse& c) { return out << c.name; }
 
 // Bands of height relative to the eye.
 constexpr std::array<double, 5> kBands_m{-4.0, -0.5, 0.5, 2.5, 7.5};
@@ -72,7 +72,7 @@ class SeenSpace {
 using Series = std::array<std::array<double, kTicks>, kHeights>;
 
 // What the law says: at each place the density of the rate that was when its drops fell through the ceiling.
-Series expectedOf(const Course& course, const SeenSpace& space) {
+Series expectedOf(const RateCourse& course, const SeenSpace& space) {
   Series expected{};
   for (size_t kind = 0; kind < kSpeedClasses; ++kind) {
     const SpeedClass& c = speedClasses()[kind];
@@ -90,7 +90,7 @@ Series expectedOf(const Course& course, const SeenSpace& space) {
   return expected;
 }
 
-Series seenIn(const Course& course) {
+Series seenIn(const RateCourse& course) {
   Series seen{};
   Upload upload;
   std::vector<LiveDrop> drops;
@@ -115,14 +115,14 @@ Series seenIn(const Course& course) {
   return seen;
 }
 
-class RateChange : public ::testing::TestWithParam<Course> {};
+class RateChange : public ::testing::TestWithParam<RateCourse> {};
 
 // Each band's count is within 5 standard errors of chance (some thousand counts are looked at), and 1 % of
 // the fuller sky for the space cut in points and time in ticks. From tick to tick the picture's drops become
 // more or fewer by 2 % of the fuller sky at most (the sharpest change, a step, takes a second to pass), and 5
 // standard errors of those that come and go.
 TEST_P(RateChange, comesDownWithTheDropsAndNeverJumps) {
-  const Course course = GetParam();
+  const RateCourse course = GetParam();
   ViewState view = viewAt({0, 0, 1.5});
   look(view, {0, 0, 1.5}, 0.0, course.pitch_rad);
   const Series expected = expectedOf(course, SeenSpace(view)), seen = seenIn(course);
@@ -141,12 +141,13 @@ TEST_P(RateChange, comesDownWithTheDropsAndNeverJumps) {
     ASSERT_LT(std::abs(all[t] - all[t - 1]), 0.02 * fullest + 5.0 * std::sqrt(0.1 * fullest)) << "tick " << t;
 }
 INSTANTIATE_TEST_SUITE_P(Courses, RateChange,
-                         ::testing::Values(Course{"setsIn", 0, 50, 1, 0, 0},
-                                           Course{"setsInSeenFromBelow", 0, 50, 1, 0, 0.5},
-                                           Course{"setsInWhileDriving", 0, 50, 1, 100 * kKmh, 0},
-                                           Course{"ends", 50, 0, 1, 0, 0}, Course{"eases", 50, 10, 1, 0, 0},
-                                           Course{"grows", 5, 50, 240, 10, 0.2},
-                                           Course{"fades", 50, 0, 240, 10, 0.2}),
+                         ::testing::Values(RateCourse{"setsIn", 0, 50, 1, 0, 0},
+                                           RateCourse{"setsInSeenFromBelow", 0, 50, 1, 0, 0.5},
+                                           RateCourse{"setsInWhileDriving", 0, 50, 1, 100 * kKmh, 0},
+                                           RateCourse{"ends", 50, 0, 1, 0, 0},
+                                           RateCourse{"eases", 50, 10, 1, 0, 0},
+                                           RateCourse{"grows", 5, 50, 240, 10, 0.2},
+                                           RateCourse{"fades", 50, 0, 240, 10, 0.2}),
                          [](const auto& given) { return given.param.name; });
 
 }  // namespace

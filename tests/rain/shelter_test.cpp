@@ -9,10 +9,6 @@
 namespace rg::rain::test {
 namespace {
 
-// Told from the oracle by rounding alone: 20 um of the floats that its hulls are made of; and half a
-// millimetre by which a turning body's chords leave the bent way. Where a way comes in at more than 6 deg to
-// the face, the former is less than 1 mm of it.
-constexpr double kRounding_m = 5e-5, kTurning_m = 0.6e-3;
 constexpr double kClock_s = 1e-7;
 
 struct City {

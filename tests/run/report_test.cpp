@@ -52,7 +52,7 @@ TEST(Report, holdsWhatItPromises) {
 // Terms of the ledger that a scenario is to put to the test, by more than a millilitre on one of its panes,
 // and after how long it does.
 struct TermsTested {
-  double after_s = 5.0;
+  double after_s = 2.0;
   std::vector<const char*> terms{};
 };
 const std::map<std::string, TermsTested> kTermsTested = {

@@ -46,10 +46,6 @@ TextureUse textureOf(const Source& source, const Json& owner, const char* key) {
   return use;
 }
 
-glm::vec3 vec3Of(const std::vector<double>& from, glm::vec3 otherwise) {
-  return from.size() < 3 ? otherwise : glm::vec3(glm::dvec3(from[0], from[1], from[2]));
-}
-
 void readBase(const Source& source, const tinygltf::PbrMetallicRoughness& from, const Json& json,
               Material& material) {
   if (from.baseColorFactor.size() == 4) {

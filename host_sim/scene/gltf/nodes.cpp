@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::size_t kMostKeys = 16U << 20;  // of all channels together, which may share accessors
 
-glm::vec3 vec3Of(const std::vector<double>& from, glm::vec3 otherwise) {
-  return from.size() == 3 ? glm::vec3(glm::dvec3(from[0], from[1], from[2])) : otherwise;
-}
-
 glm::mat4 matrixOf(const std::vector<double>& from) {
   glm::mat4 matrix(1.0F);
   for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = static_cast<float>(from[static_cast<std::size_t>(i)]);

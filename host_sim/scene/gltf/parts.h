@@ -5,6 +5,10 @@
 
 namespace host::gltf {
 
+inline glm::vec3 vec3Of(const std::vector<double>& from, glm::vec3 otherwise) {
+  return from.size() == 3 ? glm::vec3(glm::dvec3(from[0], from[1], from[2])) : otherwise;
+}
+
 /// Materials with their images' indices; the default material comes last.
 std::vector<Material> readMaterials(const Source& source);
 

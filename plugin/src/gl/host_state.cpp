@@ -1,5 +1,7 @@
 #include "gl/host_state.h"
 
+#include "gl/asked.h"
+
 namespace rg::gl {
 namespace {
 
@@ -20,21 +22,6 @@ constexpr std::array<BufferTarget, 8> kGenericBuffers{
      {GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING},
      {GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING},
      {GL_QUERY_BUFFER, GL_QUERY_BUFFER_BINDING}}};
-
-GLuint asName(GLint value) { return static_cast<GLuint>(value); }
-GLenum asEnum(GLint value) { return static_cast<GLenum>(value); }
-
-GLint integer(const GladGLContext& gl, GLenum name) {
-  GLint value = 0;
-  gl.GetIntegerv(name, &value);
-  return value;
-}
-
-GLint integer(const GladGLContext& gl, GLenum name, GLuint index) {
-  GLint value = 0;
-  gl.GetIntegeri_v(name, index, &value);
-  return value;
-}
 
 template <size_t N>
 void saveRanges(const GladGLContext& gl, std::array<BufferState::Range, N>& ranges, GLenum binding,

@@ -1,15 +1,8 @@
+#include "gl/asked.h"
 #include "gl/host_state.h"
 
 namespace rg::gl {
 namespace {
-
-GLenum asEnum(GLint value) { return static_cast<GLenum>(value); }
-
-GLint integer(const GladGLContext& gl, GLenum name) {
-  GLint value = 0;
-  gl.GetIntegerv(name, &value);
-  return value;
-}
 
 void saveDrawBuffer(const GladGLContext& gl, GLuint index, BlendState::DrawBuffer& buffer) {
   buffer.enabled = gl.IsEnabledi(GL_BLEND, index);

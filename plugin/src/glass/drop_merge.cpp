@@ -5,7 +5,6 @@
 
 namespace rg::glass {
 namespace {
-constexpr double kCell_m = 8e-3;    // as in drops.cpp
 constexpr int kLargestStride = 32;  // ticks; between, the largest radius seen bounds those there are
 constexpr double kTouch = 0.92;  // of the sum of radii: outlines are uneven, so circles must overlap a little
 }  // namespace

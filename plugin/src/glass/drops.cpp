@@ -10,7 +10,6 @@
 namespace rg::glass {
 namespace {
 
-constexpr double kCell_m = 8e-3;       // of the neighbour grid: few drops are wider
 constexpr int64_t kLeastDrop_pl = 50;  // a hemisphere of 0.03 mm: dries in a blink
 constexpr int kAgeStride = 16;         // ticks from one look at what a drop loses to the next
 

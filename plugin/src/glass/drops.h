@@ -99,7 +99,8 @@ class Drops {
   const PaneMap& map_;
   const Surface& surface_;
   Slots slots_;
-  std::vector<int32_t> cells_;  // first drop of each
+  std::vector<int32_t> cells_;             // first drop of each
+  static constexpr double kCell_m = 8e-3;  // of the neighbour grid: few drops are wider
   glm::ivec2 cell_count_{0};
   std::vector<int32_t> changed_;
   uint32_t live_ = 0;
