@@ -23,6 +23,8 @@ inline constexpr double kRarer = 1.0;
 // between.
 inline constexpr double kSampledFrame_s = (8.0 * kRarer + 0.2) / 120.0;
 inline constexpr double kRareFrame_s = (40.0 * kRarer + 0.2) / 120.0;
+// Of a drive of a few seconds, whose ticks cost as much as looking at some frames of it.
+inline constexpr double kBriefFrame_s = (16.0 * kRarer + 0.2) / 120.0;
 
 class Drive {
  public:
