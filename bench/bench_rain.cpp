@@ -10,6 +10,7 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "rain/field.h"
@@ -46,6 +47,9 @@ const Load& loadOf(int64_t live) {
   return *std::find_if(std::begin(kLoads), std::end(kLoads), [&](const Load& l) { return l.live == live; });
 }
 
+// From ahead; gusts swing it as over open country, by a sixth of itself in some ten seconds.
+enum class Wind { kNone, kSteady, kGusty };
+
 // A drive along the canopies, again and again.
 class Drive {
  public:
@@ -79,6 +83,7 @@ class Drive {
     t.index = index;
     t.time_ns = tickTimeNs(index++);
     t.weather.rain_mm_h = load_.rain_mm_h;
+    t.weather.wind_mps = windAt(t.index);
     t.views = {&view, 1};
     field.tick(t);
     view.discontinuity = false;
@@ -87,8 +92,18 @@ class Drive {
   Field field;
   Upload upload;
   double eye_x = 0.0;
+  Wind wind = Wind::kNone;
 
  private:
+  dvec3 windAt(int64_t tick) const {
+    if (wind == Wind::kNone) return dvec3(0.0);
+    constexpr double kMean_mps = 6.0, kShare = 0.17, kAlong_s = 11.0, kAcross_s = 7.0;
+    const double time_s = static_cast<double>(tick) * kTickSeconds,
+                 swing_mps = wind == Wind::kGusty ? kShare * std::numbers::sqrt2 * kMean_mps : 0.0;
+    return {-kMean_mps + swing_mps * std::sin(time_s * 2.0 * std::numbers::pi / kAlong_s),
+            0.8 * swing_mps * std::sin(time_s * 2.0 * std::numbers::pi / kAcross_s), 0.0};
+  }
+
   Load load_;
   double road_m_;
   ViewState view;
@@ -113,9 +128,10 @@ void check(const char* what, double is, double wanted) {
 }
 
 // A tick and the hand-over of its new records to the GL thread.
-void RainUpdate(benchmark::State& state) {
+void update(benchmark::State& state, Wind wind) {
   const Load& load = loadOf(state.range(0));
   Drive drive(load, static_cast<uint32_t>(state.range(1)));
+  drive.wind = wind;
   drive.toRoadsStart();
   const FieldStats before = drive.field.stats();
   uint64_t cut = 0, cut_bytes = 0;  // born on the way back
@@ -141,16 +157,21 @@ void RainUpdate(benchmark::State& state) {
   count(state, "record_bytes", static_cast<double>(after.uploaded_bytes - before.uploaded_bytes - cut_bytes));
   count(state, "shelter_tests", static_cast<double>(after.shelter_tests - before.shelter_tests));
   tellLoad(state, load);
-  if (state.iterations() < 1000) return;  // too short a way for a mean
+  if (wind != Wind::kNone || state.iterations() < 1000) return;  // too short a way for a mean
   check("live drops", live / static_cast<double>(state.iterations()), static_cast<double>(load.live));
   if (load.births > 0.0)
     check("births a tick", births / static_cast<double>(state.iterations()), load.births);
 }
+void RainUpdate(benchmark::State& state) { update(state, Wind::kNone); }
+void RainUpdateInWind(benchmark::State& state) { update(state, Wind::kSteady); }
+void RainUpdateInGusts(benchmark::State& state) { update(state, Wind::kGusty); }
 void rainLoads(benchmark::internal::Benchmark* b) {
   for (const int64_t live : {200000, 20000, 1000, 10000, 100000}) b->Args({live, 64});
   b->Unit(benchmark::kMicrosecond);
 }
 BENCHMARK(RainUpdate)->Apply(rainLoads);
+BENCHMARK(RainUpdateInWind)->Apply(rainLoads);
+BENCHMARK(RainUpdateInGusts)->Apply(rainLoads);
 
 struct Flat {
   float nx, ny, nz, d;

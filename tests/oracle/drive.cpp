@@ -16,7 +16,12 @@ std::vector<Hull> hullsOf(const std::vector<host::ShelterView>& shelters) {
 }
 
 host::Scenario scenarioOf(const Variant& v) {
-  host::Scenario s = host::loadScenario(v.scenario, v.changes, RG_SOURCE_DIR);
+  std::vector<std::string> changes = v.changes;
+  if (!v.falls.empty()) {
+    const std::vector<std::string>& falls = v.falls == "snow" ? kSnow : v.falls == "sleet" ? kSleet : kHail;
+    changes.insert(changes.end(), falls.begin(), falls.end());
+  }
+  host::Scenario s = host::loadScenario(v.scenario, changes, RG_SOURCE_DIR);
   s.camera = v.camera;
   return s;
 }

@@ -14,6 +14,11 @@
 
 namespace oracle {
 
+// How far a streak may lie inside a volume at most. Float places 20 m from the eye are 2 um apart and drops'
+// ends are told to 8 us, 0.3 mm at 40 m/s; a drop's own radius, by which streaks stay off, is at least
+// 0.25 mm.
+inline constexpr double kTolerance_m = 0.5e-3;
+
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr double kRarer = 5.0;  // a sanitized build is some ten times slower
 #else
@@ -23,6 +28,8 @@ inline constexpr double kRarer = 1.0;
 // between.
 inline constexpr double kSampledFrame_s = (8.0 * kRarer + 0.2) / 120.0;
 inline constexpr double kRareFrame_s = (40.0 * kRarer + 0.2) / 120.0;
+// Of a drive of a few seconds, whose ticks cost as much as looking at some frames of it.
+inline constexpr double kBriefFrame_s = (16.0 * kRarer + 0.2) / 120.0;
 
 class Drive {
  public:

@@ -104,13 +104,15 @@ struct Roof {
 bool anyInside(const std::vector<Streak>& streaks, const std::vector<Roof>& roofs, const dvec3& car) {
   constexpr double kOff_m = 2e-4;  // of float places 20 m from the eye, and of ends told to 8 us
   for (const Streak& s : streaks) {
-    for (int k = 0; k <= 16; ++k) {
-      const dvec3 p = s.from_m + (s.to_m - s.from_m) * (k / 16.0);
-      for (size_t i = 0; i < roofs.size(); ++i) {
-        const dvec3 q = i == 0 ? p - car : p;
-        if (glm::all(glm::greaterThan(q, roofs[i].low + kOff_m)) &&
-            glm::all(glm::lessThan(q, roofs[i].high - kOff_m)))
-          return true;
+    for (size_t i = 0; i < roofs.size(); ++i) {
+      const dvec3 low = roofs[i].low + kOff_m, high = roofs[i].high - kOff_m, off = i == 0 ? car : dvec3(0.0),
+                  from = s.from_m - off, to = s.to_m - off;
+      if (glm::any(glm::lessThan(glm::max(from, to), low)) ||
+          glm::any(glm::greaterThan(glm::min(from, to), high)))
+        continue;  // all of it beyond a face
+      for (int k = 0; k <= 16; ++k) {
+        const dvec3 p = from + (to - from) * (k / 16.0);
+        if (glm::all(glm::greaterThan(p, low)) && glm::all(glm::lessThan(p, high))) return true;
       }
     }
   }

@@ -15,16 +15,16 @@ inline std::vector<LiveDrop> standingDrops(uint64_t seed, const Picture& picture
   std::vector<LiveDrop> found;
   for (uint32_t kind = 0; kind < kBouncedClass; ++kind) {
     const ClassLattice& lattice = classLattices()[kind];
-    const double density = air.density_m3[kind];
+    const double least = std::exp(-air.density_m3[kind] * lattice.cell_m3);
     const glm::ivec3 eye(glm::floor((cone.eye_m - picture.classes[kind].origin_m) / lattice.cell_m));
     const int far = static_cast<int>(kReachPerDiameter * 1e-3 * lattice.reach_mm / lattice.cell_m) + 2;
     for (int x = -far; x <= far; ++x) {
       for (int y = -far; y <= far; ++y) {
+        const CandidateRow row(seed, eye.x + x, eye.y + y);
         for (int z = -far; z <= far; ++z) {
           const CellKey key{eye.x + x, eye.y + y, eye.z + z, kind};
-          Candidates candidates(seed, key);
-          const double least = std::exp(-density * lattice.cell_m3);
-          for (const Candidate* c = &candidates.next(); c->chance > least; c = &candidates.next()) {
+          Candidates candidates(row, key.z, kind);
+          while (const Candidate* c = candidates.next(least)) {
             if (c->id % one_of != 0) continue;
             LiveDrop d;
             d.key = {kind, key.x, key.y, key.z, c->id};

@@ -31,7 +31,7 @@ void ClassFrames::start(const dvec3& origin_m, const dvec3& wind_mps) {
   origin_m_ = origin_m;
   moved_m_.fill(dvec3(0.0));
   wind_.start(0.0, dvec3(0.0), wind_mps);
-  forgetPaths();
+  moveClasses();
 }
 
 void ClassFrames::jump(double time_s) {
@@ -39,18 +39,19 @@ void ClassFrames::jump(double time_s) {
   const dvec3 carried = wind_.carried_m() + wind * (time_s - time_s_);
   time_s_ = time_s;
   wind_.start(time_s, carried, wind);
-  forgetPaths();
+  moveClasses();
 }
 
 void ClassFrames::resume(const dvec3& wind_mps) {
   wind_.start(time_s_, wind_.carried_m(), wind_mps);
-  forgetPaths();
+  moveClasses();
 }
 
 bool ClassFrames::advance(double time_s, const dvec3& wind_mps) {
   time_s_ = time_s;
-  forgetPaths();
-  return wind_.advance(time_s, wind_mps);
+  const bool turned = wind_.advance(time_s, wind_mps);
+  moveClasses();
+  return turned;
 }
 
 bool ClassFrames::setProfile(const WindProfile& profile) {
@@ -58,20 +59,23 @@ bool ClassFrames::setProfile(const WindProfile& profile) {
   for (uint32_t kind = 0; kind < kClasses; ++kind)
     moved_m_[kind] += (profile_.drop_share[kind] - profile.drop_share[kind]) * wind_.carried_m();
   profile_ = profile;
-  forgetPaths();
+  moveClasses();
   return true;
 }
 
-dvec3 ClassFrames::velocity(uint32_t kind) const {
-  return profile_.drop_share[kind] * wind_.wind_mps() + ownVelocity(kind);
+void ClassFrames::shift(const dvec3& shift_m) {
+  origin_m_ -= shift_m;
+  moveClasses();
 }
 
-dvec3 ClassFrames::origin(uint32_t kind) const {
-  return origin_m_ + moved_m_[kind] + profile_.drop_share[kind] * wind_.carried_m() +
-         ownVelocity(kind) * time_s_;
-}
-
-void ClassFrames::forgetPaths() {
+// Once, whenever anything about them is another: they are asked for drop by drop.
+void ClassFrames::moveClasses() {
+  for (uint32_t kind = 0; kind < kClasses; ++kind) {
+    const dvec3 own = ownVelocity(kind);
+    velocities_mps_[kind] = profile_.drop_share[kind] * wind_.wind_mps() + own;
+    origins_m_[kind] =
+        origin_m_ + moved_m_[kind] + profile_.drop_share[kind] * wind_.carried_m() + own * time_s_;
+  }
   past_.count = 0;
   for (ClassPath& path : paths_) path.count = 0;
 }
@@ -88,6 +92,7 @@ void ClassFrames::findPath(uint32_t kind, ClassPath& path) const {
   const double longest_s = Shelter::kPath_m / std::max(glm::length(velocity(kind)), 0.1);
   path.pieces[0] = {0.0, longest_s, dvec3(0.0), velocity(kind)};
   path.count = 1;
+  path.falls = true;
   double until = 0.0;
   dvec3 to_m(0.0);
   for (uint32_t i = 0; i < past_.count && until > -longest_s; ++i) {
@@ -95,6 +100,7 @@ void ClassFrames::findPath(uint32_t kind, ClassPath& path) const {
     const double begin = i + 1 == past_.count ? -longest_s : std::max(then.from_s - time_s_, -longest_s);
     const dvec3 v = share * then.wind_mps + ownVelocity(kind);
     to_m += v * (begin - until);
+    path.falls = path.falls && v.z < 0.0;
     path.pieces[path.count++] = {begin, until, to_m, v};
     until = begin;
   }

@@ -28,26 +28,27 @@ class ClassFrames {
   // Frames stay where they are and go on by it. The winds that were count as if it had been in force then,
   // for the seconds until drops that knew the old one are down. True when it is another one than before.
   bool setProfile(const WindProfile& profile);
-  void shift(const glm::dvec3& shift_m) { origin_m_ -= shift_m; }
+  void shift(const glm::dvec3& shift_m);
 
   // World position of the corner of cell (0, 0, 0).
-  glm::dvec3 origin(uint32_t kind) const;
-  glm::dvec3 velocity(uint32_t kind) const;
+  const glm::dvec3& origin(uint32_t kind) const { return origins_m_[kind]; }
+  const glm::dvec3& velocity(uint32_t kind) const { return velocities_mps_[kind]; }
   // The way of a class's drops: to come at today's wind, and back along the winds that were. Valid until the
   // frames go on.
   const ClassPath& path(uint32_t kind);
 
  private:
   void findPath(uint32_t kind, ClassPath& path) const;
-  void forgetPaths();
+  void moveClasses();
 
   WindPath wind_;  // of the stated wind; a class has its share
   WindProfile profile_;
   double time_s_ = 0.0;
-  glm::dvec3 origin_m_{0.0};                    // of all, without wind and fall
-  std::array<glm::dvec3, kClasses> moved_m_{};  // by changes of the profile
-  WindPath::Past past_;                         // count 0: not asked for in this tick
-  std::array<ClassPath, kClasses> paths_;       // count 0: as well
+  glm::dvec3 origin_m_{0.0};                                         // of all, without wind and fall
+  std::array<glm::dvec3, kClasses> moved_m_{};                       // by changes of the profile
+  std::array<glm::dvec3, kClasses> origins_m_{}, velocities_mps_{};  // as things stand
+  WindPath::Past past_;                                              // count 0: not asked for in this tick
+  std::array<ClassPath, kClasses> paths_;                            // count 0: as well
 };
 
 }  // namespace rg::rain

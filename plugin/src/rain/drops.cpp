@@ -16,6 +16,7 @@ SlotPool::SlotPool(uint32_t capacity) : capacity_(capacity) {
 
 void SlotPool::clear() {
   used_ = end_ = 0;
+  lowest_ = 0;
   size_t bits = capacity_;
   for (auto& level : free_) {
     for (size_t i = 0; i < level.size(); ++i) {
@@ -26,14 +27,14 @@ void SlotPool::clear() {
   }
 }
 
-bool SlotPool::taken(uint32_t slot) const { return (free_[0][slot / 64] >> (slot % 64) & 1u) == 0; }
-
 uint32_t SlotPool::take() {
   if (used_ == capacity_) return kNone;
-  size_t index = 0;
-  for (int level = kLevels - 1; level >= 0; --level) {
-    index = index * 64 + static_cast<size_t>(std::countr_zero(free_[level][index]));
+  if (free_[0][lowest_] == 0) {
+    lowest_ = 0;
+    for (int level = kLevels - 1; level > 0; --level)
+      lowest_ = lowest_ * 64 + static_cast<size_t>(std::countr_zero(free_[level][lowest_]));
   }
+  size_t index = lowest_ * 64 + static_cast<size_t>(std::countr_zero(free_[0][lowest_]));
   const uint32_t slot = static_cast<uint32_t>(index);
   for (auto& level : free_) {
     level[index / 64] &= ~(uint64_t{1} << (index % 64));
@@ -47,8 +48,11 @@ uint32_t SlotPool::take() {
 
 void SlotPool::give(uint32_t slot) {
   size_t index = slot;
+  lowest_ = std::min(lowest_, index / 64);
   for (auto& level : free_) {
+    const uint64_t before = level[index / 64];
     level[index / 64] |= uint64_t{1} << (index % 64);
+    if (before != 0) break;  // it is known above
     index /= 64;
   }
   --used_;
@@ -56,11 +60,11 @@ void SlotPool::give(uint32_t slot) {
 }
 
 Drops::Drops(uint32_t capacity)
-    : slots_(capacity), records_(capacity), places_(capacity), heads_(kBuckets, kNone) {
+    : pool_(capacity), slots_(capacity), calendar_(capacity), changed_((size_t{capacity} + 63) / 64) {
   constexpr size_t kCells = 1u << 14;  // two views' worth: more make the bunches grow
   bunches_.reserve(capacity / Bunch::kMost + kCells);
   free_bunches_.reserve(bunches_.capacity());
-  changed_.reserve(capacity);
+  due_.reserve(capacity);
 }
 
 uint32_t Drops::newBunch(uint32_t next) {
@@ -87,109 +91,72 @@ void Drops::freeBunch(uint32_t bunch, uint32_t& first) {
 }
 
 void Drops::touch(uint32_t slot) {
-  if (places_[slot].changed != 0) return;
-  places_[slot].changed = 1;
-  changed_.push_back(slot);
-}
-
-void Drops::clearChanged() {
-  for (const uint32_t slot : changed_) places_[slot].changed = 0;
-  changed_.clear();
+  uint64_t& word = changed_[slot / 64];
+  const uint64_t bit = uint64_t{1} << (slot % 64);
+  changes_ += (word & bit) == 0 ? 1u : 0u;
+  word |= bit;
 }
 
 void Drops::schedule(uint32_t slot, uint32_t now) {
-  // Ends fall within a tick: the bucket is of the first tick at or after the end, so that by then it has
-  // come.
-  const uint32_t ahead = std::clamp((records_[slot].end - now + kTick - 1) / kTick, 1u, kBuckets - 1);
-  const uint32_t day = (now / kTick + ahead) % kBuckets;
-  places_[slot].day = day;
-  places_[slot].on_day = {heads_[day], kNone};
-  if (heads_[day] != kNone) places_[heads_[day]].on_day.before = slot;
-  heads_[day] = slot;
+  slots_[slot].entry = calendar_.write(slot, slots_[slot].drop.end, now,
+                                       [this](const Calendar::Entry& entry) { return isRight(entry); });
 }
 
-void Drops::unschedule(uint32_t slot) {
-  const uint32_t day = places_[slot].day;
-  if (day == kNone) return;
-  const Link link = places_[slot].on_day;
-  if (link.before != kNone)
-    places_[link.before].on_day.next = link.next;
-  else
-    heads_[day] = link.next;
-  if (link.next != kNone) places_[link.next].on_day.before = link.before;
-  places_[slot].day = kNone;
-}
-
-uint32_t Drops::add(const shared::RainDrop& drop, float chance, uint32_t cell, uint32_t& bunch, bool ends,
-                    uint32_t now) {
-  const uint32_t slot = slots_.take();
+uint32_t Drops::add(const shared::RainDrop& drop, const End& end, float chance, uint32_t cell,
+                    uint32_t& bunch, uint32_t now) {
+  const uint32_t slot = pool_.take();
   if (slot == kNone) return kNone;
   if (bunch == kNone || bunches_[bunch].count == Bunch::kMost) bunch = newBunch(bunch);
-  records_[slot] = drop;
+  Slot& born = slots_[slot];
+  born.drop = drop;
+  born.drop.end = end.at;
+  born.cell = cell;
+  born.bunch = bunch;
+  born.entry = kNoEntry;
+  born.chance = chance;
   ++live_of_[shared::rainClassOf(drop)];
-  Place& place = places_[slot];
-  place.cell = cell;
-  place.bunch = bunch;
-  place.in_bunch = bunches_[bunch].count;
-  place.chance = chance;
   bunches_[bunch].slots[bunches_[bunch].count++] = slot;
-  if (ends) schedule(slot, now);
+  if (end.comes) schedule(slot, now);
   touch(slot);
   return slot;
 }
 
-// Once it is in no bunch.
-void Drops::empty(uint32_t slot) {
-  unschedule(slot);
-  --live_of_[shared::rainClassOf(records_[slot])];
-  records_[slot].diameter_m = 0.0f;
-  places_[slot].cell = kNone;
-  slots_.give(slot);
+void Drops::remove(uint32_t slot, uint32_t& first) {
+  Bunch& bunch = bunches_[slots_[slot].bunch];
+  uint32_t at = 0;
+  while (bunch.slots[at] != slot) ++at;
+  bunch.slots[at] = bunch.slots[--bunch.count];
+  if (bunch.count == 0) freeBunch(slots_[slot].bunch, first);
+  --live_of_[shared::rainClassOf(slots_[slot].drop)];
+  pool_.give(slot);
   touch(slot);
 }
 
-void Drops::remove(uint32_t slot, uint32_t& first) {
-  Bunch& bunch = bunches_[places_[slot].bunch];
-  const uint32_t last = bunch.slots[--bunch.count];
-  bunch.slots[places_[slot].in_bunch] = last;
-  places_[last].in_bunch = places_[slot].in_bunch;
-  if (bunch.count == 0) freeBunch(places_[slot].bunch, first);
-  empty(slot);
-}
-
-void Drops::fetchDrops(uint32_t bunch) const {
-  if (bunch == kNone) return;
-  fetch(bunches_[bunch].next);
-  for (uint32_t i = 0; i < bunches_[bunch].count; ++i) {
-    __builtin_prefetch(&places_[bunches_[bunch].slots[i]], 1);
-    __builtin_prefetch(&records_[bunches_[bunch].slots[i]], 1);
-  }
-}
-
-void Drops::removeAll(uint32_t& first) {
+void Drops::removeAll(uint32_t& first, uint32_t kind) {
   for (; first != kNone; freeBunch(first, first)) {
     const Bunch& bunch = bunches_[first];
-    fetchDrops(bunch.next);
-    for (uint32_t i = 0; i < bunch.count; ++i) empty(bunch.slots[i]);
+    fetch(bunch.next);
+    for (uint32_t i = 0; i < bunch.count; ++i) {
+      pool_.give(bunch.slots[i]);
+      touch(bunch.slots[i]);
+    }
+    live_of_[kind] -= bunch.count;
   }
 }
 
-void Drops::setEnd(uint32_t slot, uint32_t end, bool ends, uint32_t now) {
-  unschedule(slot);
-  records_[slot].end = end;
-  if (ends) schedule(slot, now);
+void Drops::setEnd(uint32_t slot, const End& end, uint32_t now) {
+  slots_[slot].drop.end = end.at;
+  slots_[slot].entry = kNoEntry;
+  if (end.comes) schedule(slot, now);
   touch(slot);
 }
 
 void Drops::clear() {
-  slots_.clear();
-  live_of_.fill(0);
-  for (uint32_t slot = 0; slot < capacity(); ++slot) {
-    if (records_[slot].diameter_m > 0.0f) touch(slot);
-    records_[slot].diameter_m = 0.0f;
-    places_[slot].cell = places_[slot].day = kNone;
+  for (uint32_t slot = 0; slot < pool_.end(); ++slot) {
+    if (alive(slot)) touch(slot);
   }
-  heads_.assign(kBuckets, kNone);
+  pool_.clear();
+  live_of_.fill(0);
   bunches_.clear();
   free_bunches_.clear();
 }

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "rain/calendar.h"
 #include "rain/cells.h"
 #include "shared/rain_streak.glsl"
 
@@ -18,34 +21,52 @@ class SlotPool {
   uint32_t take();  // kNone when all are taken
   void give(uint32_t slot);
   void clear();
+  // Calls each(slot) for the next that will be taken, some `count` of them.
+  template <class F>
+  void forNext(size_t count, F&& each) const {
+    for (size_t word = lowest_; word < free_[0].size(); ++word) {
+      for (uint64_t bits = free_[0][word]; bits != 0; bits &= bits - 1) {
+        if (count-- == 0) return;
+        each(static_cast<uint32_t>(word * 64) + static_cast<uint32_t>(std::countr_zero(bits)));
+      }
+    }
+  }
   uint32_t used() const { return used_; }
   uint32_t end() const { return end_; }  // all taken slots lie below
-  bool taken(uint32_t slot) const;
+  bool taken(uint32_t slot) const { return (free_[0][slot / 64] >> (slot % 64) & 1u) == 0; }
 
  private:
   static constexpr int kLevels =
       4;  // a bit for each slot; above, a bit for each word that has a free one: 64^4 slots
   std::vector<uint64_t> free_[kLevels];
+  size_t lowest_ = 0;  // no word of slots before it has a free one
   uint32_t capacity_, used_ = 0, end_ = 0;
 };
 
 // Drops by slot, each in a bunch of its cell's, and in the calendar when it has an end. A cell's drops are
-// born and die together: bunches say at once where all of them are.
+// born and die together: bunches say at once where all of them are. What hangs on a drop is kept so that one
+// that dies with its cell is not looked at, and one that is born is only written.
 class Drops {
  public:
   explicit Drops(uint32_t capacity);
 
-  // `now` and ends: in 1/1024 tick, modulo 2^32, as RainDrop.end. `chance`: as Candidate's. `bunch`: the
-  // cell's first, kNone when it is empty. kNone when full.
-  uint32_t add(const shared::RainDrop& drop, float chance, uint32_t cell, uint32_t& bunch, bool ends,
+  struct End {
+    uint32_t at = 0;     // as RainDrop.end
+    bool comes = false;  // false: not before the drop is out of sight
+  };
+  // `now`: in 1/1024 tick, modulo 2^32, as RainDrop.end. `chance`: as Candidate's. `bunch`: the cell's first,
+  // kNone when it is empty. kNone when full.
+  uint32_t add(const shared::RainDrop& drop, const End& end, float chance, uint32_t cell, uint32_t& bunch,
                uint32_t now);
   void remove(uint32_t slot, uint32_t& bunch);
-  void removeAll(uint32_t& bunch);
-  // To the cache, as they will be wanted soon: the bunch, and then, when it is there, its drops.
+  void removeAll(uint32_t& bunch, uint32_t kind);  // all are of one class
+  // To the cache, as they will be wanted soon: room for so many drops, and a bunch.
+  void fetchRoom(size_t count) const {
+    pool_.forNext(count, [this](uint32_t slot) { __builtin_prefetch(&slots_[slot], 1); });
+  }
   void fetch(uint32_t bunch) const {
     if (bunch != kNone) __builtin_prefetch(&bunches_[bunch]);
   }
-  void fetchDrops(uint32_t bunch) const;
   // Calls each(slot) for the cell's drops; it may remove that one.
   template <class F>
   void forEach(uint32_t bunch, F&& each) {
@@ -55,83 +76,80 @@ class Drops {
       bunch = next;
     }
   }
-  void setEnd(uint32_t slot, uint32_t end, bool ends, uint32_t now);
+  void setEnd(uint32_t slot, const End& end, uint32_t now);
   void clear();  // without telling the GPU slot by slot: publish all afterwards
 
   // Calls expired(slot) for each drop whose end has come; it must remove it. Call for every tick.
   template <class F>
   void expire(uint32_t now, F&& expired) {
-    while (static_cast<int32_t>(now - expired_to_) >= static_cast<int32_t>(kTick)) {
-      expired_to_ += kTick;
-      expireBucket(expired_to_ / kTick, now, expired);
+    calendar_.turnTo(
+        now, [&](const Calendar::Entry& entry) { __builtin_prefetch(&slots_[entry.slot], 1); },
+        [&](const Calendar::Entry& entry) {
+          if (!isRight(entry)) return;
+          if (static_cast<int32_t>(slots_[entry.slot].drop.end - now) > 0) {
+            schedule(entry.slot, now);
+          } else {
+            fetch(slots_[entry.slot].bunch);
+            due_.push_back(entry.slot);
+          }
+        });
+    for (const uint32_t slot : due_) expired(slot);
+    due_.clear();
+  }
+  void startCalendar(uint32_t now) { calendar_.start(now); }
+
+  // What a slot holds that is alive; else what it held.
+  const shared::RainDrop& operator[](uint32_t slot) const { return slots_[slot].drop; }
+  bool ends(uint32_t slot) const { return slots_[slot].entry != kNoEntry; }
+  float chanceOf(uint32_t slot) const { return slots_[slot].chance; }
+  uint32_t cellOf(uint32_t slot) const { return slots_[slot].cell; }
+  bool alive(uint32_t slot) const { return pool_.taken(slot); }
+  uint32_t live() const { return pool_.used(); }
+  uint32_t liveOf(uint32_t kind) const { return live_of_[kind]; }
+  uint32_t end() const { return pool_.end(); }
+  uint32_t capacity() const { return static_cast<uint32_t>(slots_.size()); }
+
+  // How many slots were written or emptied since they were last taken.
+  uint32_t changed() const { return changes_; }
+  // Calls each(slot) for them, ascending.
+  template <class F>
+  void takeChanged(F&& each) {
+    for (size_t word = 0; changes_ > 0; ++word) {
+      for (uint64_t bits = std::exchange(changed_[word], 0); bits != 0; bits &= bits - 1, --changes_)
+        each(static_cast<uint32_t>(word * 64) + static_cast<uint32_t>(std::countr_zero(bits)));
     }
   }
-  void startCalendar(uint32_t now) { expired_to_ = now; }
-
-  const shared::RainDrop& operator[](uint32_t slot) const { return records_[slot]; }
-  bool ends(uint32_t slot) const { return places_[slot].day != kNone; }
-  float chanceOf(uint32_t slot) const { return places_[slot].chance; }
-  uint32_t cellOf(uint32_t slot) const { return places_[slot].cell; }
-  bool alive(uint32_t slot) const { return slots_.taken(slot); }
-  uint32_t live() const { return slots_.used(); }
-  uint32_t liveOf(uint32_t kind) const { return live_of_[kind]; }
-  uint32_t end() const { return slots_.end(); }
-  uint32_t capacity() const { return static_cast<uint32_t>(records_.size()); }
-
-  // Slots written or emptied since the last call of clearChanged, in that order, each once.
-  const std::vector<uint32_t>& changed() const { return changed_; }
-  void clearChanged();
 
  private:
-  struct Link {
-    uint32_t next = kNone, before = kNone;
-  };
   struct alignas(64) Bunch {
     static constexpr uint32_t kMost = 14;
     std::array<uint32_t, kMost> slots{};
     uint32_t count = 0, next = kNone;
   };
-  // Where a drop hangs: half a line of the cache, as all of it is wanted at once.
-  struct alignas(32) Place {
-    uint32_t cell = kNone, bunch = kNone, in_bunch = 0;
-    uint32_t day = kNone;
-    Link on_day;
+  static constexpr uint32_t kNoEntry = 0;
+  // A drop, where it hangs, and the number of its entry in the calendar: a line of the cache.
+  struct alignas(64) Slot {
+    shared::RainDrop drop{};
+    uint32_t cell = kNone, bunch = kNone, entry = kNoEntry;
     float chance = 0.0f;
-    uint32_t changed = 0;
   };
-  static constexpr uint32_t kTick = 1024;
-  static constexpr uint32_t kBuckets = 2048;  // ticks ahead: 17 s
 
+  bool isRight(const Calendar::Entry& entry) const {
+    return alive(entry.slot) && slots_[entry.slot].entry == entry.number;
+  }
   uint32_t newBunch(uint32_t next);
   void freeBunch(uint32_t bunch, uint32_t& first);
   void schedule(uint32_t slot, uint32_t now);
-  void unschedule(uint32_t slot);
   void touch(uint32_t slot);
-  void empty(uint32_t slot);
 
-  template <class F>
-  void expireBucket(uint32_t tick, uint32_t now, F& expired) {
-    uint32_t slot = heads_[tick % kBuckets];
-    while (slot != kNone) {
-      const uint32_t next = places_[slot].on_day.next;
-      if (static_cast<int32_t>(records_[slot].end - now) <= 0) {
-        expired(slot);
-      } else {  // it was beyond the calendar when it was written in
-        unschedule(slot);
-        schedule(slot, now);
-      }
-      slot = next;
-    }
-  }
-
-  SlotPool slots_;
-  std::vector<shared::RainDrop> records_;
-  std::vector<Place> places_;
+  SlotPool pool_;
+  std::vector<Slot> slots_;
   std::vector<Bunch> bunches_;
   std::vector<uint32_t> free_bunches_;
-  std::vector<uint32_t> heads_;  // of the calendar's days
-  std::vector<uint32_t> changed_;
-  uint32_t expired_to_ = 0;
+  Calendar calendar_;
+  std::vector<uint32_t> due_;      // in this tick
+  std::vector<uint64_t> changed_;  // a bit for each slot
+  uint32_t changes_ = 0;           // bits set
   std::array<uint32_t, shared::kRainClasses> live_of_{};
 };
 

@@ -110,23 +110,18 @@ void Field::State::followViews(const Tick& t) {
 void Field::State::emptyLeftCells() {
   const uint32_t before = drops.live();
   const std::vector<uint32_t>& left = border.left();
+  constexpr size_t kAhead = 4;
   for (size_t i = 0; i < left.size(); ++i) {
-    if (i + 2 < left.size()) drops.fetch(cells[left[i + 2]].bunch);
-    if (i + 1 < left.size()) drops.fetchDrops(cells[left[i + 1]].bunch);
-    drops.removeAll(cells[left[i]].bunch);
+    if (i + kAhead < left.size()) drops.fetch(cells[left[i + kAhead]].bunch);
+    drops.removeAll(cells[left[i]].bunch, cells[left[i]].key.kind);
     cells.free(left[i]);
   }
   died += before - drops.live();
 }
 
-void Field::State::fillEnteredCells() {
-  for (uint32_t kind = 0; kind < kClasses; ++kind) least_chance[kind] = chanceAt(rate.most_m3(kind), kind);
-  for (const uint32_t cell : border.entered()) fillCell(cell);
-}
-
 void Field::State::expireDrops() {
   drops.expire(now(), [&](uint32_t slot) {
-    if (isOf(shared::rainClassOf(drops[slot]), Hydrometeor::kHail)) fallen.push_back(drops[slot]);
+    if (isStone(shared::rainClassOf(drops[slot]))) fallen.push_back(drops[slot]);
     drops.remove(slot, cells[drops.cellOf(slot)].bunch);
     ++died;
   });
@@ -138,7 +133,8 @@ void Field::State::expireDrops() {
 void Field::State::thin() {
   double expected = 0.0;
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
-    expected += border.cellsOf(kind) * std::pow(border.cell_m(kind), 3) * rate.most_m3(kind);
+    const double cell_m = border.cell_m(kind);
+    expected += border.cellsOf(kind) * (cell_m * cell_m * cell_m) * rate.most_m3(kind);
   }
   const double room = kFilled * drops.capacity();
   const double wanted = expected > room ? room / expected : 1.0;

@@ -11,6 +11,7 @@ namespace {
 
 using glm::dvec3;
 
+constexpr size_t kBornAtOnce = 64;  // so many lines of the cache are on their way together, and find room
 constexpr uint32_t kEndless = 1u << 30;   // ticks' units ahead: 2.4 h, longer than any drop stays in view
 constexpr double kLongestEnd_s = 8000.0;  // ends beyond are none
 
@@ -26,41 +27,65 @@ bool Field::State::lookAround(const CellKey& key, bool past) {
                             time_s(), past);
 }
 
-// A cell of the border is a block of the standing lattice's. All that may be born in it are found first, then
-// their sizes, which have nothing to wait for but their own logarithms.
-void Field::State::fillCell(uint32_t index) {
-  const CellKey block = cells[index].key;
-  coming.clear();
-  const int32_t side = 1 << border.level();
-  for (int32_t x = 0; x < side; ++x) {
-    for (int32_t y = 0; y < side; ++y) {
-      for (int32_t z = 0; z < side; ++z)
-        findComing({block.x * side + x, block.y * side + y, block.z * side + z, block.kind});
-    }
+// Many cells at once. All that may be born in them is found first, then their sizes, which have nothing to
+// wait for but their own logarithms, and meanwhile the room for them comes to the cache.
+void Field::State::fillEnteredCells() {
+  for (uint32_t kind = 0; kind < kClasses; ++kind) least_chance[kind] = chanceAt(rate.most_m3(kind), kind);
+  for (const uint32_t cell : border.entered()) {
+    findComing(cell);
+    if (coming.size() >= kBornAtOnce) bear();
   }
-  if (coming.empty()) return;
-  for (Coming& c : coming) c.drop.diameter_m = diameterOf_m(*c.then, block.kind, c.size);
-  cells[index].near_volume = lookAround(block, true);
+  bear();
+}
+
+void Field::State::bear() {
+  drops.fetchRoom(coming.size());
+  for (Coming& c : coming) c.drop.diameter_m = diameterOf_m(*c.then, cells[c.cell].key.kind, c.size);
+  uint32_t looked_at = kNone;
   for (const Coming& c : coming) {
-    if (!birth(index, c)) return;
+    if (c.cell != looked_at) cells[c.cell].near_volume = lookAround(cells[c.cell].key, true);
+    looked_at = c.cell;
+    if (!birth(c)) break;
+  }
+  coming.clear();
+}
+
+// A cell of the border is a block of the standing lattice's.
+void Field::State::findComing(uint32_t cell) {
+  const CellKey block = cells[cell].key;
+  const int32_t side = 1 << border.level();
+  for (int32_t x = block.x * side; x < (block.x + 1) * side; ++x) {
+    for (int32_t y = block.y * side; y < (block.y + 1) * side; ++y) {
+      const CandidateRow row(settings.seed, x, y);
+      for (int32_t z = block.z * side; z < (block.z + 1) * side; ++z)
+        findComingOf(cell, {x, y, z, block.kind}, Candidates(row, z, block.kind));
+    }
   }
 }
 
-void Field::State::findComing(const CellKey& key) {
-  const double least = least_chance[key.kind];
-  Candidates candidates(settings.seed, key);
-  for (const Candidate* c = &candidates.next(); c->chance > least; c = &candidates.next()) {
+void Field::State::findComingOf(uint32_t cell, const CellKey& key, Candidates candidates) {
+  while (const Candidate* c = candidates.next(least_chance[key.kind])) {
     const InTheAir& then = rate.steady() ? rate.now() : whenFallen(key, *c);
     if (!rate.steady() && c->chance <= chanceAt(then.density_m3[key.kind], key.kind)) continue;
-    coming.push_back({RainDrop{key.x, key.y, key.z, c->fraction_x | c->fraction_y << 16,
-                               c->fraction_z | key.kind << 16, 0.0f, 0, c->id},
-                      c->size, static_cast<float>(c->chance), &then});
+    // Field by field into its place: what is put together elsewhere and copied in larger pieces has to wait
+    // until the pieces it was put together from have left the processor.
+    Coming& comes = coming.emplace_back();
+    comes.drop.cell_x = key.x;
+    comes.drop.cell_y = key.y;
+    comes.drop.cell_z = key.z;
+    comes.drop.fraction_xy = c->fraction_x | c->fraction_y << 16;
+    comes.drop.fraction_z_class = c->fraction_z | key.kind << 16;
+    comes.drop.id = c->id;
+    comes.cell = cell;
+    comes.chance = static_cast<float>(c->chance);
+    comes.size = c->size;
+    comes.then = &then;
   }
 }
 
 // What rain there is where a drop is was decided when it fell through the ceiling.
 const InTheAir& Field::State::whenFallen(const CellKey& key, const Candidate& candidate) const {
-  const ClassLattice& lattice = classLattices()[key.kind];
+  const ClassLattice& lattice = lattices[key.kind];
   const double z = frames.origin(key.kind).z + (key.z + candidate.fraction_z * 0x1p-16) * lattice.cell_m;
   const double fallen_ticks = (ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz),
                delay = std::max(set_in.test(key.kind) ? 1.0 : 0.0, fallen_ticks);
@@ -69,16 +94,15 @@ const InTheAir& Field::State::whenFallen(const CellKey& key, const Candidate& ca
 
 // The least chance of a drop that exists where the law has so many.
 double Field::State::chanceAt(double density_m3, uint32_t kind) const {
-  return std::exp(-keep * density_m3 * classLattices()[kind].cell_m3);
+  return std::exp(-keep * density_m3 * lattices[kind].cell_m3);
 }
 
 // False when the buffer is full.
-bool Field::State::birth(uint32_t index, const Coming& coming_drop) {
-  Cell& cell = cells[index];
-  RainDrop drop = coming_drop.drop;
-  drop.end = now() + kEndless;
-  bool ends = false;
-  if (cell.near_volume || isOf(cell.key.kind, Hydrometeor::kHail)) {
+bool Field::State::birth(const Coming& comes) {
+  Cell& cell = cells[comes.cell];
+  const RainDrop& drop = comes.drop;
+  Drops::End end{now() + kEndless, false};
+  if (cell.near_volume || isStone(cell.key.kind)) {
     const dvec3 place = placeOf(drop);
     const double falls_s = fallsFor(drop, place, cell.near_volume);
     if (falls_s <= 0.0 ||
@@ -86,9 +110,9 @@ bool Field::State::birth(uint32_t index, const Coming& coming_drop) {
       if (cell.near_volume) ++sheltered;
       return true;
     }
-    ends = endOf(falls_s, drop.end);
+    end = endOf(falls_s);
   }
-  if (drops.add(drop, coming_drop.chance, index, cell.bunch, ends, now()) == kNone) return false;
+  if (drops.add(drop, end, comes.chance, comes.cell, cell.bunch, now()) == kNone) return false;
   ++born;
   return true;
 }
@@ -96,24 +120,23 @@ bool Field::State::birth(uint32_t index, const Coming& coming_drop) {
 dvec3 Field::State::placeOf(const RainDrop& drop) const {
   const uint32_t kind = shared::rainClassOf(drop);
   const dvec3 fraction(drop.fraction_xy & 0xffffu, drop.fraction_xy >> 16, drop.fraction_z_class & 0xffffu);
-  return frames.origin(kind) + (dvec3(drop.cell_x, drop.cell_y, drop.cell_z) + (fraction + 0.5) * 0x1p-16) *
-                                   classLattices()[kind].cell_m;
+  return frames.origin(kind) +
+         (dvec3(drop.cell_x, drop.cell_y, drop.cell_z) + (fraction + 0.5) * 0x1p-16) * lattices[kind].cell_m;
 }
 
 // Until it comes into a volume; a stone also: onto the ground, as that is told now.
 double Field::State::fallsFor(const RainDrop& drop, const dvec3& place, bool near_volume) {
   const uint32_t kind = shared::rainClassOf(drop);
   const double enters_s = near_volume ? shelter.willEnter(place, frames.path(kind), time_s()) : kNever_s;
-  if (!isOf(kind, Hydrometeor::kHail)) return enters_s;
+  if (!isStone(kind)) return enters_s;
   const double above_m = place.z - 0.5 * static_cast<double>(drop.diameter_m) - ground_m;
-  return std::min(enters_s, above_m / classLattices()[kind].drops.speed_mps);
+  return std::min(enters_s, above_m / lattices[kind].drops.speed_mps);
 }
 
 // Rounded down, so that the drop does not outlive its entry.
-bool Field::State::endOf(double after_s, uint32_t& end) const {
-  const bool ends = after_s < kLongestEnd_s;
-  end = now() + (ends ? static_cast<uint32_t>(after_s * kTickHz * kEndUnits) : kEndless);
-  return ends;
+Drops::End Field::State::endOf(double after_s) const {
+  const bool comes = after_s < kLongestEnd_s;
+  return {now() + (comes ? static_cast<uint32_t>(after_s * kTickHz * kEndUnits) : kEndless), comes};
 }
 
 // A stone that came down flies on as a drop of its own.
@@ -131,7 +154,7 @@ void Field::State::bounce(const RainDrop& stone) {
   bool is_fresh = false;
   if (bounced_cell == kNone) bounced_cell = cells.acquire({0, 0, 0, kBouncedClass}, is_fresh);
   constexpr float kAlways = 2.0f;  // as chance: it is there, however much is thinned
-  const uint32_t slot = drops.add(drop, kAlways, bounced_cell, cells[bounced_cell].bunch, true, now());
+  const uint32_t slot = drops.add(drop, {end, true}, kAlways, bounced_cell, cells[bounced_cell].bunch, now());
   if (slot == kNone) return;
   ++born;
   ++bounced;
@@ -153,13 +176,12 @@ void Field::State::retestCell(uint32_t index) {
   cell.near_volume = near_volume;
   drops.forEach(cell.bunch, [&](uint32_t slot) {
     const double falls_s = fallsFor(drops[slot], placeOf(drops[slot]), near_volume);
-    uint32_t end = 0;
-    const bool ends = endOf(falls_s, end);
+    const Drops::End end = endOf(falls_s);
     if (falls_s <= 0.0) {
       drops.remove(slot, cell.bunch);
       ++died;
-    } else if (ends != drops.ends(slot) || (ends && end != drops[slot].end)) {
-      drops.setEnd(slot, end, ends, now());
+    } else if (end.comes != drops.ends(slot) || (end.comes && end.at != drops[slot].end)) {
+      drops.setEnd(slot, end, now());
     }
   });
 }

@@ -38,13 +38,15 @@ void Field::State::describe(Picture& picture) const {
 
 void Field::publish(Upload& upload) {
   State& s = *state_;
-  const std::vector<uint32_t>& changed = s.drops.changed();
-  upload.slots.insert(upload.slots.end(), changed.begin(), changed.end());
-  size_t at = upload.records.size();
-  upload.records.resize(at + changed.size());
-  for (const uint32_t slot : changed) upload.records[at++] = s.drops[slot];
-  s.uploaded += changed.size() * sizeof(RainDrop);
-  s.drops.clearChanged();
+  const uint32_t changed = s.drops.changed();
+  size_t at = upload.slots.size();
+  upload.slots.resize(at + changed);
+  upload.records.resize(at + changed);
+  s.drops.takeChanged([&](uint32_t slot) {
+    upload.slots[at] = slot;
+    upload.records[at++] = s.drops.alive(slot) ? s.drops[slot] : RainDrop{};
+  });
+  s.uploaded += changed * sizeof(RainDrop);
   s.describe(upload.picture);
 }
 
@@ -59,7 +61,7 @@ void Field::publishAll(Upload& upload) {
     upload.records.push_back(s.drops[slot]);
   }
   s.uploaded += upload.records.size() * sizeof(RainDrop);
-  s.drops.clearChanged();
+  s.drops.takeChanged([](uint32_t) {});
   s.describe(upload.picture);
 }
 

@@ -19,9 +19,7 @@ namespace rg::rain {
 
 inline constexpr uint32_t kEndUnits = 1024;  // of a tick, as shared::kRainEndUnits
 
-inline bool isOf(uint32_t kind, Hydrometeor hydrometeor) {
-  return fallClasses()[kind].hydrometeor == hydrometeor;
-}
+inline bool isStone(uint32_t kind) { return kind >= kFirstHail && kind < kBouncedClass; }
 
 struct Field::State {
   explicit State(const FieldSettings& given)
@@ -29,6 +27,7 @@ struct Field::State {
     fallen.reserve(1u << 12);
   }
 
+  const std::array<ClassLattice, kClasses>& lattices = classLattices();
   FieldSettings settings;
   Visibility visibility;
   WindProfile profile;  // from the next tick on
@@ -49,11 +48,12 @@ struct Field::State {
   std::vector<RainDrop> fallen;            // stones that came down in this tick
   double keep = 1.0;                       // share of the law's drops that is born
   std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
-  // What a cell that is filled will hold, unless a volume kept it off.
+  // What cells that are filled will hold, unless a volume kept it off.
   struct Coming {
-    RainDrop drop;
-    double size = 0.0;
+    RainDrop drop{};  // but for its end
+    uint32_t cell = kNone;
     float chance = 0.0f;
+    double size = 0.0;
     const InTheAir* then = nullptr;
   };
   std::vector<Coming> coming;  // kept for its room
@@ -68,7 +68,6 @@ struct Field::State {
   void moveTo(const Tick& t);
   void forgetCells();
   void clearCells();
-  void fillEnteredCells();
   void findClasses();
   void followViews(const Tick& t);
   void emptyLeftCells();
@@ -76,11 +75,13 @@ struct Field::State {
   void thin();
 
   // field_births.cpp: which drops a cell holds, and until when.
-  void fillCell(uint32_t index);
-  void findComing(const CellKey& key);
+  void fillEnteredCells();
+  void findComing(uint32_t cell);
+  void findComingOf(uint32_t cell, const CellKey& key, Candidates candidates);
+  void bear();
   const InTheAir& whenFallen(const CellKey& key, const Candidate& candidate) const;
   double chanceAt(double density_m3, uint32_t kind) const;
-  bool birth(uint32_t index, const Coming& coming_drop);
+  bool birth(const Coming& comes);
   double fallsFor(const RainDrop& drop, const glm::dvec3& place_m, bool near_volume);
   void bounce(const RainDrop& stone);
   void retest();
@@ -88,7 +89,7 @@ struct Field::State {
   glm::dvec3 cellMiddle(const CellKey& key) const;
   bool lookAround(const CellKey& key, bool past);
   glm::dvec3 placeOf(const RainDrop& drop) const;
-  bool endOf(double after_s, uint32_t& end) const;
+  Drops::End endOf(double after_s) const;
 
   // field_picture.cpp: what is handed out.
   void describe(Picture& picture) const;

@@ -13,6 +13,7 @@ void WindPath::start(double time_s, const dvec3& carried_m, const dvec3& wind_mp
   wind_mps_ = wind_mps;
   pieces_.clear();
   pieces_.add({time_s, carried_m, wind_mps});
+  past_.count = 0;
 }
 
 bool WindPath::advance(double time_s, const dvec3& wind_mps) {
@@ -23,6 +24,7 @@ bool WindPath::advance(double time_s, const dvec3& wind_mps) {
   const dvec3 off = carried_m_ - (last.carried_m + last.wind_mps * (time_s - last.from_s));
   if (glm::length(off) < kDeparture_m) return false;
   pieces_.add({time_s, carried_m_, wind_mps});
+  straighten();
   return true;
 }
 
@@ -40,21 +42,30 @@ bool WindPath::isStraight(double until_s, const dvec3& until_m, uint32_t first, 
   return true;
 }
 
-void WindPath::trace(Past& past) const {
-  past.count = 0;
+// Once a piece: it looks at all that were.
+void WindPath::straighten() {
+  past_.count = 0;
   double until_s = time_s_;
   dvec3 until_m = carried_m_;
-  for (uint32_t first = 0; first < pieces_.size() && past.count < Past::kMost;) {
+  for (uint32_t first = 1; first < pieces_.size() && past_.count + 1 < Past::kMost;) {
     uint32_t to = first;
     while (to + 1 < pieces_.size() && isStraight(until_s, until_m, first, to + 1)) ++to;
     const Piece& begin = pieces_[to];
-    const double span_s = until_s - begin.from_s;
-    past.stretches[past.count++] = {begin.from_s, begin.carried_m,
-                                    span_s > 0.0 ? (until_m - begin.carried_m) / span_s : begin.wind_mps};
+    past_.stretches[past_.count++] = {begin.from_s, begin.carried_m,
+                                      (until_m - begin.carried_m) / (until_s - begin.from_s)};
     until_s = begin.from_s;
     until_m = begin.carried_m;
     first = to + 1;
   }
+}
+
+void WindPath::trace(Past& past) const {
+  const Piece& last = pieces_[0];
+  const double span_s = time_s_ - last.from_s;
+  past.count = 0;
+  past.stretches[past.count++] = {last.from_s, last.carried_m,
+                                  span_s > 0.0 ? (carried_m_ - last.carried_m) / span_s : last.wind_mps};
+  for (uint32_t i = 0; i < past_.count; ++i) past.stretches[past.count++] = past_.stretches[i];
 }
 
 Pose movedOn(const Pose& pose, double seconds) {

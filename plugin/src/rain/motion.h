@@ -57,9 +57,11 @@ class WindPath {
   void trace(Past& past) const;
 
  private:
+  void straighten();
   bool isStraight(double until_s, const glm::dvec3& until_m, uint32_t first, uint32_t to) const;
 
   Recent<Piece, 256> pieces_;
+  Past past_;  // the way until the newest piece began
   glm::dvec3 carried_m_{0.0}, wind_mps_{0.0};
   double time_s_ = 0.0;
 };

@@ -71,8 +71,7 @@ void extent(const Cone& cone, const Margin& margin, double cell_m, double radius
 }
 
 // So many rows along z are found together, as the machine can.
-constexpr int32_t kAtOnce = 8;
-static_assert(RowSet::kRows % kAtOnce == 0);
+constexpr int32_t kAtOnce = RowSet::kAtOnce;
 
 // Whole cells [first, last) whose middle lies between low and high, both within +-22 of the eye; nothing of
 // the kind is an empty span.
@@ -81,8 +80,8 @@ void findSpans(const Sides& sides, float y, float first_z, float radius_sq, floa
   std::array<float, kAtOnce> z, low, high;
   for (size_t i = 0; i < kAtOnce; ++i) z[i] = first_z + static_cast<float>(i);
   for (size_t i = 0; i < kAtOnce; ++i) {
-    const float rest = radius_sq - y * y - z[i] * z[i];
-    high[i] = rest > 0.0f ? std::sqrt(rest) : -1.0f;
+    const float rest = radius_sq - y * y - z[i] * z[i], root = std::sqrt(std::max(rest, 0.0f));
+    high[i] = rest > 0.0f ? root : -1.0f;
     low[i] = -high[i];
   }
   for (int s = 0; s < sides.lows; ++s) {
@@ -100,11 +99,11 @@ void findSpans(const Sides& sides, float y, float first_z, float radius_sq, floa
   std::array<int32_t, kAtOnce> first, last;
   for (size_t i = 0; i < kAtOnce; ++i) {
     const float from = low[i] + eye_x - 0.5f, to = high[i] + eye_x - 0.5f;
-    const float above = kAbove - (from < kBeyond ? from : kBeyond),
-                below = kAbove + (to > -kBeyond ? to : -kBeyond);
+    const float above = kAbove - std::min(from, kBeyond), below = kAbove + std::max(to, -kBeyond);
     const int32_t begin = 64 - static_cast<int32_t>(above), end = static_cast<int32_t>(below) - 63;
-    first[i] = begin < end ? base_x + begin : 0;
-    last[i] = begin < end ? base_x + end : 0;
+    const int32_t any = begin < end ? -1 : 0;
+    first[i] = (base_x + begin) & any;
+    last[i] = (base_x + end) & any;
   }
   for (size_t i = 0; i < kAtOnce; ++i) spans[i] = {first[i], last[i]};
 }

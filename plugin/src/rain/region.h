@@ -38,19 +38,24 @@ struct RowSpan {
   bool operator==(const RowSpan&) const = default;
 };
 
-// The rows of a region: y in [y0, y0 + ny), z in [z0, z0 + nz).
+// The rows of a region: y in [y0, y0 + ny), z in [z0, z0 + nz). Those of one y follow each other, and are
+// followed by those of the next, but for room to find them so many at once.
 struct RowSet {
-  static constexpr int32_t kRows = 48;
+  static constexpr int32_t kRows = 48, kAtOnce = 8;
+  static_assert(kRows % kAtOnce == 0);
   int32_t y0 = 0, z0 = 0, ny = 0, nz = 0;
   std::array<RowSpan, size_t{kRows} * kRows> rows;
 
   bool hasZ(int32_t z) const { return z >= z0 && z < z0 + nz; }
   // The rows of one y, from z0 on; null when there are none.
-  const RowSpan* line(int32_t y) const {
-    return y >= y0 && y < y0 + ny ? &rows[static_cast<size_t>(y - y0) * kRows] : nullptr;
-  }
-  RowSpan* line(int32_t y) { return &rows[static_cast<size_t>(y - y0) * kRows]; }
+  const RowSpan* line(int32_t y) const { return y >= y0 && y < y0 + ny ? &rows[at(y)] : nullptr; }
+  RowSpan* line(int32_t y) { return &rows[at(y)]; }
   void clear() { ny = nz = 0; }
+
+ private:
+  size_t at(int32_t y) const {
+    return static_cast<size_t>(y - y0) * static_cast<size_t>((nz + kAtOnce - 1) / kAtOnce * kAtOnce);
+  }
 };
 
 // The cells whose cube touches the cone widened by the margin (a few more at its edges). `eye_cells` is the

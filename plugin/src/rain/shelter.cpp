@@ -240,14 +240,26 @@ void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& 
   }
 }
 
+// So many of the path's pieces may lie as low as a static volume. Most of a way that a turning wind bent
+// into many pieces lies above all roofs.
+uint32_t Shelter::lowPieces(const dvec3& middle, const dvec3& half, const ClassPath& path) const {
+  if (!path.falls) return path.count;
+  const double above_all_m = nodes_[0].box.high.z + half.z;
+  for (uint32_t k = 1; k < path.count; ++k) {
+    const PathPiece& piece = path.pieces[k];
+    const double lowest_m = middle.z + piece.from_m.z + piece.velocity_mps.z * (piece.to_s - piece.from_s);
+    if (lowest_m > above_all_m) return k;
+  }
+  return path.count;
+}
+
 bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath& path, double now_s,
                          bool past) {
   met_.clear();
   met_bodies_.clear();
   if (list_.empty()) return false;
-  if (!nodes_.empty()) {
-    for (uint32_t k = 0; k < (past ? path.count : 1u); ++k) gatherStatic(middle, half, path.pieces[k]);
-  }
+  low_pieces_ = nodes_.empty() ? 0 : past ? lowPieces(middle, half, path) : 1;
+  for (uint32_t k = 0; k < low_pieces_; ++k) gatherStatic(middle, half, path.pieces[k]);
   gatherBodies(middle, glm::length(half), path, now_s, past);
   return !met_.empty() || !met_bodies_.empty();
 }
@@ -306,6 +318,7 @@ bool Shelter::cameThrough(const dvec3& place, const ClassPath& path, double now_
     const PathPiece& piece = path.pieces[k];
     const dvec3 from = place + piece.from_m - piece.velocity_mps * piece.from_s;
     for (const uint32_t i : met_) {
+      if (k >= low_pieces_) break;
       ++tests_;
       const Span span =
           timesInside(list_[i]->shape.planes, from, piece.velocity_mps, piece.from_s, piece.to_s);

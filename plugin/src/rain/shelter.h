@@ -40,6 +40,7 @@ struct ClassPath {
   static constexpr uint32_t kMost = 1 + WindPath::Past::kMost;
   std::array<PathPiece, kMost> pieces;
   uint32_t count = 0;
+  bool falls = true;  // all the way it came, downwards
 };
 
 class Shelter {
@@ -109,6 +110,7 @@ class Shelter {
   void rebuild();
   void split(uint32_t node, uint32_t first, uint32_t count);
   void gatherStatic(const glm::dvec3& middle_m, const glm::dvec3& half_m, const PathPiece& piece);
+  uint32_t lowPieces(const glm::dvec3& middle_m, const glm::dvec3& half_m, const ClassPath& path) const;
   void gatherBodies(const glm::dvec3& middle_m, double radius_m, const ClassPath& path, double now_s,
                     bool past);
   double entryDuring(const Body& body, const BodyPath::Piece& motion, const glm::dvec3& from_m,
@@ -127,6 +129,7 @@ class Shelter {
   std::map<uint32_t, Body> bodies_;
   std::vector<uint32_t> met_;            // found by lookAround: static volumes
   std::vector<const Body*> met_bodies_;  // and bodies
+  uint32_t low_pieces_ = 0;              // of the path, low enough for static volumes
   std::vector<uint32_t> stack_;
   uint64_t tests_ = 0;
 };

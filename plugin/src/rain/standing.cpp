@@ -10,13 +10,6 @@ namespace {
 constexpr double kReferenceReach_per_m = 1.25 * 1663.0;  // visibility factor 1.25 at the reference resolution
 constexpr double kCellsPerReach = 6.0;
 
-// Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators": SplitMix64's mixing.
-uint64_t mix(uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
 // ln(x) for x in (0, 1] (not below 1e-300), from exact operations alone so that every machine's rain is the
 // same: x = m 2^e, ln m = 2 atanh((m - 1) / (m + 1)), |s| < 0.172 below. So many terms of its series leave
 // out less than 3e-8.
@@ -33,28 +26,6 @@ double portableLog(double x) {
 }
 
 }  // namespace
-
-Candidates::Candidates(uint64_t seed, const CellKey& cell) {
-  const uint64_t xy = uint64_t{static_cast<uint32_t>(cell.x)} << 32 | static_cast<uint32_t>(cell.y);
-  const uint64_t zk = uint64_t{static_cast<uint32_t>(cell.z)} << 32 | cell.kind;
-  state_ = mix(mix(mix(seed + 0x9e3779b97f4a7c15u) ^ xy) + zk);
-}
-
-uint64_t Candidates::draw() {
-  state_ += 0x9e3779b97f4a7c15u;
-  return mix(state_);
-}
-
-const Candidate& Candidates::next() {
-  const uint64_t a = draw(), b = draw();
-  candidate_.chance *= (static_cast<double>(a >> 32) + 0.5) * 0x1p-32;
-  candidate_.size = (static_cast<double>(a & 0xffffffffu) + 0.5) * 0x1p-32;
-  candidate_.fraction_x = static_cast<uint32_t>(b & 0xffffu);
-  candidate_.fraction_y = static_cast<uint32_t>(b >> 16 & 0xffffu);
-  candidate_.fraction_z = static_cast<uint32_t>(b >> 32 & 0xffffu);
-  candidate_.id = static_cast<uint32_t>(a ^ b >> 32);
-  return candidate_;
-}
 
 const std::array<ClassLattice, kClasses>& classLattices() {
   static const std::array<ClassLattice, kClasses> lattices = [] {

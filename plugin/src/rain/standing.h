@@ -20,14 +20,51 @@ struct Candidate {
   uint32_t id = 0;
 };
 
+// Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators": SplitMix64.
+inline constexpr uint64_t kSplitMixStep = 0x9e3779b97f4a7c15u;
+inline uint64_t splitMix(uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+// What the cells of a row along z have in common, of all classes.
+class CandidateRow {
+ public:
+  CandidateRow(uint64_t seed, int32_t x, int32_t y)
+      : state(splitMix(splitMix(seed + kSplitMixStep) ^
+                       (uint64_t{static_cast<uint32_t>(x)} << 32 | static_cast<uint32_t>(y)))) {}
+  const uint64_t state;
+};
+
 // Walks a cell's candidates, chances descending without end.
 class Candidates {
  public:
-  Candidates(uint64_t seed, const CellKey& cell);
-  const Candidate& next();
+  Candidates(const CandidateRow& row, int32_t z, uint32_t kind)
+      : state_(splitMix(row.state + (uint64_t{static_cast<uint32_t>(z)} << 32 | kind))) {}
+  // The next one, valid until the call after; null when its chance, and so every later one's, is not above
+  // `least`. Most cells end here, so that this is all that is worked out for them.
+  const Candidate* next(double least) {
+    const uint64_t a = draw();
+    candidate_.chance *= (static_cast<double>(static_cast<uint32_t>(a >> 32)) + 0.5) * 0x1p-32;
+    return candidate_.chance > least ? &drawRest(a) : nullptr;
+  }
 
  private:
-  uint64_t draw();
+  uint64_t draw() {
+    state_ += kSplitMixStep;
+    return splitMix(state_);
+  }
+  const Candidate& drawRest(uint64_t a) {
+    const uint64_t b = draw();
+    candidate_.size = (static_cast<double>(static_cast<uint32_t>(a)) + 0.5) * 0x1p-32;
+    candidate_.fraction_x = static_cast<uint32_t>(b & 0xffffu);
+    candidate_.fraction_y = static_cast<uint32_t>(b >> 16 & 0xffffu);
+    candidate_.fraction_z = static_cast<uint32_t>(b >> 32 & 0xffffu);
+    candidate_.id = static_cast<uint32_t>(a ^ b >> 32);
+    return candidate_;
+  }
+
   uint64_t state_;
   Candidate candidate_;
 };
