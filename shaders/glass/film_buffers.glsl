@@ -13,7 +13,7 @@ layout(std430, binding = 1) buffer Ridges {
 struct TileState {
   int stirs[2]; // holds water that may flow, or was changed from outside: as of this step, and of the next
   int awake;    // in the last step
-  uint film_low_pl, film_high; // of its last report
+  int film_low_pl, film_high; // of its last report
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };
 

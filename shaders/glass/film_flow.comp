@@ -8,9 +8,10 @@ layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of 
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
 layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
 layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
-layout(std430, binding = 2) writeonly buffer Report { FilmTile tiles[]; };
+layout(std430, binding = 2) writeonly buffer Report { int tiles[]; }; // FilmTile
 
-const int kStrips = kTileSize / kStripSize, kRows = kTileSize / 2;
+const int kStrips = kTileSize / kStripSize, kRows = kTileSize / 2, kWalks = 2 * kStrips;
+const int kNone = 0x7fffffff;
 
 // What an invocation saw on its way.
 struct Walk {
@@ -18,7 +19,8 @@ struct Walk {
   int offering_pl; // what is on the texel that makes it
   int stirs;
 };
-shared Walk walks[2 * kStrips];
+// The greatest offer of all and the first texel that makes it; each walk's part of the fields of FilmTile.
+shared int greatest_pl, first_texel, parts[kWalks * kWalks];
 
 // Fields along a column of a tile: at its lower and its upper edge.
 struct Column { vec4 metric_low, metric_high, drive_low, drive_high; };
@@ -40,13 +42,13 @@ Column columnOf(Corners c, int x) {
 }
 Column columnBeside(int x, int tile_row) { return columnOf(cornersOf(ivec2(x >> 4, tile_row)), x); }
 
-FilmCell cellOf(Column column, int y, int volume_pl) {
+FilmCell cellOf(Column column, int y, int volume_pl, FilmStepInfo step) {
   float f = fraction(y);
-  return filmCell(volume_pl, between(column.drive_low, column.drive_high, f), between(column.metric_low, column.metric_high, f), info);
+  return filmCell(volume_pl, between(column.drive_low, column.drive_high, f), between(column.metric_low, column.metric_high, f), step);
 }
 
 bool wakes(ivec2 tile, ivec2 tiles_across, int t) {
-  if (states[t].stirs[turn] != 0 || (driesNow(uint(t), info) && (states[t].film_low_pl | states[t].film_high) != 0u)) return true;
+  if (states[t].stirs[turn] != 0 || (driesNow(uint(t), info) && (states[t].film_low_pl | states[t].film_high) != 0)) return true;
   return (tile.x > 0 && states[t - 1].stirs[turn] != 0) || (tile.x + 1 < tiles_across.x && states[t + 1].stirs[turn] != 0) ||
          (tile.y > 0 && states[t - tiles_across.x].stirs[turn] != 0) ||
          (tile.y + 1 < tiles_across.y && states[t + tiles_across.x].stirs[turn] != 0);
@@ -58,137 +60,132 @@ void leavePane(int volume_pl, vec2 outward, inout FilmTile sums) {
   else sums.drained_pl += volume_pl;
 }
 
-Walk walk(ivec2 tile, int t, int rows) {
-  Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0), 0, 0);
+Walk walk(ivec2 tile, bool dries, int rows) {
+  FilmStepInfo step = info;
   int lane = int(gl_LocalInvocationIndex), up = lane < kStrips ? 1 : -1, across = tilesAcross() * kStrips;
   int x = (tile.x * kStrips + lane % kStrips) * kStripSize, y = tile.y * kTileSize + (up > 0 ? 0 : kTileSize - 1);
-  bool dries = driesNow(uint(t), info);
+  int strip = y * across + x / kStripSize, texel = y * step.columns + x;
 
   Corners own = cornersOf(tile), back = cornersOf(tile - ivec2(0, up));
   Column left_column = columnBeside(x - 1, tile.y), right_column = columnBeside(x + kStripSize, tile.y);
   Column columns[kStripSize];
-  FilmCell me[kStripSize], next[kStripSize];
+  FilmCell me[kStripSize];
+  uint glass[kStripSize];
   float entry_m[kStripSize];
   int from_back[kStripSize];
   bool back_off[kStripSize];
-  int strip = y * across + x / kStripSize, texel = y * info.columns + x;
   ivec4 back_pl = imageLoad(before, strip - up * across), my_pl = imageLoad(before, strip);
   for (int k = 0; k < kStripSize; ++k) {
     columns[k] = columnOf(own, x + k);
-    FilmCell behind = cellOf(columnOf(back, x + k), y - up, back_pl[k]);
-    me[k] = cellOf(columns[k], y, my_pl[k]);
-    entry_m[k] = entryThickness_m(me[k], uint(texel + k), info);
-    float entry_behind_m = entryThickness_m(behind, uint(texel - up * info.columns + k), info);
-    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, entry_behind_m, me[k], me[k].y_pl * up, entry_m[k], info);
+    FilmCell behind = cellOf(columnOf(back, x + k), y - up, back_pl[k], step);
+    me[k] = cellOf(columns[k], y, my_pl[k], step);
+    glass[k] = glassAt(uint(texel + k), step);
+    entry_m[k] = entryThickness_m(me[k], glass[k], step);
+    float entry_behind_m = entryThickness_m(behind, glassAt(uint(texel - up * step.columns + k), step), step);
+    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, entry_behind_m, me[k], me[k].y_pl * up, entry_m[k], step);
     back_off[k] = behind.volume_pl < 0;
   }
+
+  // Over the pane's edges: to the left, to the right, behind and ahead.
+  int over_left = 0, over_right = 0, over_back = 0, over_ahead = 0;
+  Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0), 0, 0);
   for (int row = 0; row < rows; ++row) {
-    ivec4 next_pl = imageLoad(before, strip + up * across);
-    FilmCell left = cellOf(left_column, y, imageLoad(before, strip - 1).w), right = cellOf(right_column, y, imageLoad(before, strip + 1).x);
-    int to_right = flowBetween_pl(left, left.x_pl, entryThickness_m(left, uint(texel - 1), info), me[0], me[0].x_pl, entry_m[0], info);
+    ivec4 next_pl = imageLoad(before, strip + up * across), after_pl;
+    FilmCell left = cellOf(left_column, y, imageLoad(before, strip - 1).w, step);
+    FilmCell right = cellOf(right_column, y, imageLoad(before, strip + 1).x, step);
+    float entry_right_m = entryThickness_m(right, glassAt(uint(texel + kStripSize), step), step);
     bool left_off = left.volume_pl < 0;
-    ivec4 out_pl = my_pl;
+    int from_left = flowBetween_pl(left, left.x_pl, entryThickness_m(left, glassAt(uint(texel - 1), step), step), me[0], me[0].x_pl, entry_m[0], step);
     for (int k = 0; k < kStripSize; ++k) {
-      int from_left = to_right;
-      FilmCell beside = right;
-      float entry_beside_m = 0.0;
-      if (k + 1 < kStripSize) {
-        beside = me[k + 1];
-        entry_beside_m = entry_m[k + 1];
-      } else {
-        entry_beside_m = entryThickness_m(right, uint(texel + kStripSize), info);
-      }
-      to_right = flowBetween_pl(me[k], me[k].x_pl, entry_m[k], beside, beside.x_pl, entry_beside_m, info);
-      next[k] = cellOf(columns[k], y + up, next_pl[k]);
-      float entry_next_m = entryThickness_m(next[k], uint(texel + up * info.columns + k), info);
-      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, entry_m[k], next[k], next[k].y_pl * up, entry_next_m, info);
-      if (me[k].volume_pl >= 0) {
-        if (left_off) leavePane(-from_left, vec2(-1.0, 0.0), seen.sums);
-        if (beside.volume_pl < 0) leavePane(to_right, vec2(1.0, 0.0), seen.sums);
-        if (back_off[k]) leavePane(-from_back[k], vec2(0.0, -up), seen.sums);
-        if (next[k].volume_pl < 0) leavePane(to_next, vec2(0.0, up), seen.sums);
-        vec4 m = between(columns[k].metric_low, columns[k].metric_high, fraction(y));
-        int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_back[k]) - to_next;
-        if (dries) {
-          int dried = evaporated_pl(volume, uint(texel + k), m, info);
-          volume -= dried;
-          seen.sums.evaporated_pl += dried;
-        }
-        int offered = offered_pl(volume, uint(texel + k), m, info);
-        // The greatest, and of those the first.
-        if (offered > seen.sums.event_pl || (offered > 0 && offered == seen.sums.event_pl && texel + k < seen.sums.event_texel)) {
-          seen.sums.event_texel = texel + k;
-          seen.sums.event_pl = offered;
-          seen.offering_pl = volume;
-        }
-        // Asleep next time only if neighbours, too, have seen it lie still.
-        if (me[k].h_m >= info.pin_m || thickness_m(volume, m) >= info.pin_m) seen.stirs = 1;
-        uint whole = uint(max(volume, 0));
-        seen.sums.film_low_pl += whole & 0xffffu;
-        seen.sums.film_high += whole >> 16u;
-        out_pl[k] = volume;
-      }
-      left_off = me[k].volume_pl < 0;
-      back_off[k] = left_off;
+      FilmCell beside = k + 1 < kStripSize ? me[(k + 1) % kStripSize] : right;
+      float entry_beside_m = k + 1 < kStripSize ? entry_m[(k + 1) % kStripSize] : entry_right_m;
+      int to_right = flowBetween_pl(me[k], me[k].x_pl, entry_m[k], beside, beside.x_pl, entry_beside_m, step);
+      FilmCell next = cellOf(columns[k], y + up, next_pl[k], step);
+      uint glass_next = glassAt(uint(texel + up * step.columns + k), step);
+      float entry_next_m = entryThickness_m(next, glass_next, step);
+      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, entry_m[k], next, next.y_pl * up, entry_next_m, step);
+
+      bool on = me[k].volume_pl >= 0;
+      over_left += on && left_off ? -from_left : 0;
+      over_right += on && beside.volume_pl < 0 ? to_right : 0;
+      over_back += on && back_off[k] ? -from_back[k] : 0;
+      over_ahead += on && next.volume_pl < 0 ? to_next : 0;
+
+      vec4 m = between(columns[k].metric_low, columns[k].metric_high, fraction(y));
+      int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_back[k]) - to_next;
+      int dried = dries && on ? evaporated_pl(volume, uint(texel + k), m, step) : 0;
+      volume = on ? volume - dried : -1;
+      seen.sums.evaporated_pl += dried;
+      int offered = offeredBy_pl(volume, glass[k], m, step);
+      // The greatest, and of those the first.
+      bool better = offered > seen.sums.event_pl || (offered > 0 && offered == seen.sums.event_pl && texel + k < seen.sums.event_texel);
+      seen.sums.event_texel = better ? texel + k : seen.sums.event_texel;
+      seen.sums.event_pl = better ? offered : seen.sums.event_pl;
+      seen.offering_pl = better ? volume : seen.offering_pl;
+      // Asleep next time only if neighbours, too, have seen it lie still.
+      seen.stirs |= int(max(me[k].h_m, thickness_m(volume, m)) >= step.pin_m);
+      uint whole = uint(max(volume, 0));
+      seen.sums.film_low_pl += whole & 0xffffu;
+      seen.sums.film_high += whole >> 16u;
+      after_pl[k] = volume;
+
+      left_off = !on;
+      back_off[k] = !on;
+      from_left = to_right;
       from_back[k] = to_next;
+      me[k] = next;
+      glass[k] = glass_next;
       entry_m[k] = entry_next_m;
     }
-    after[strip] = out_pl;
-    for (int k = 0; k < kStripSize; ++k) me[k] = next[k];
-    my_pl = next_pl;
+    after[strip] = after_pl;
     y += up;
     strip += up * across;
-    texel += up * info.columns;
+    texel += up * step.columns;
   }
+  leavePane(over_left, vec2(-1.0, 0.0), seen.sums);
+  leavePane(over_right, vec2(1.0, 0.0), seen.sums);
+  leavePane(over_back, vec2(0.0, -up), seen.sums);
+  leavePane(over_ahead, vec2(0.0, up), seen.sums);
   return seen;
 }
 
-// The first of the invocations puts all walks together. One texel of a tile gives to the drops: the one with most, the first of those.
-void report(int t) {
-  FilmTile sum = walks[0].sums;
-  int offering_pl = walks[0].offering_pl, stirs = walks[0].stirs;
-  for (int k = 1; k < 2 * kStrips; ++k) {
-    FilmTile part = walks[k].sums;
-    if (part.event_pl > sum.event_pl || (part.event_pl > 0 && part.event_pl == sum.event_pl && part.event_texel < sum.event_texel)) {
-      sum.event_pl = part.event_pl;
-      sum.event_texel = part.event_texel;
-      offering_pl = walks[k].offering_pl;
-    }
-    sum.film_low_pl += part.film_low_pl;
-    sum.film_high += part.film_high;
-    sum.drained_pl += part.drained_pl;
-    sum.blown_pl += part.blown_pl;
-    sum.evaporated_pl += part.evaporated_pl;
-    stirs |= walks[k].stirs;
-  }
-  if (sum.event_pl > 0) {
-    int left = offering_pl - sum.event_pl;
-    sum.film_low_pl += (uint(left) & 0xffffu) - (uint(offering_pl) & 0xffffu);
-    sum.film_high += (uint(left) >> 16u) - (uint(offering_pl) >> 16u);
-    int place = placeOf(sum.event_texel);
-    after[place / kStripSize][place % kStripSize] = left;
-  }
-  tiles[t] = sum;
-  states[t].stirs[1 - turn] = stirs;
-  states[t].film_low_pl = sum.film_low_pl;
-  states[t].film_high = sum.film_high;
+// Each invocation sums one field of FilmTile. One texel of a tile gives to the drops: the one with most, the first of those.
+void report(int t, Walk seen, bool looked_at) {
+  int lane = int(gl_LocalInvocationIndex);
+  atomicMax(greatest_pl, seen.sums.event_pl);
+  barrier();
+  if (seen.sums.event_pl > 0 && seen.sums.event_pl == greatest_pl) atomicMin(first_texel, seen.sums.event_texel);
+  barrier();
+  bool gives = seen.sums.event_texel == first_texel;
+  int left = seen.offering_pl - seen.sums.event_pl, place = gives ? placeOf(first_texel) : 0;
+  if (gives) after[place / kStripSize][place % kStripSize] = left;
+  int film_low_pl = int(seen.sums.film_low_pl) + (gives ? (left & 0xffff) - (seen.offering_pl & 0xffff) : 0);
+  int film_high = int(seen.sums.film_high) + (gives ? (left >> 16) - (seen.offering_pl >> 16) : 0);
+  int part[kWalks] = int[kWalks](gives ? first_texel + 1 : 0, gives ? seen.sums.event_pl : 0, film_low_pl, film_high,
+                                 seen.sums.drained_pl, seen.sums.blown_pl, seen.sums.evaporated_pl, seen.stirs);
+  for (int field = 0; field < kWalks; ++field) parts[lane * kWalks + field] = part[field];
+  barrier();
+  int sum = 0;
+  for (int k = 0; k < kWalks; ++k) sum += parts[k * kWalks + lane];
+  bool stirs = lane == kWalks - 1;
+  if (stirs) states[t].stirs[1 - turn] = sum;
+  sum = stirs ? 0 : lane == 0 ? sum - 1 : sum;
+  if (!looked_at) sum = lane == 2 ? states[t].film_low_pl : lane == 3 ? states[t].film_high : sum;
+  tiles[t * kWalks + lane] = sum;
+  if (lane == 2) states[t].film_low_pl = sum;
+  if (lane == 3) states[t].film_high = sum;
 }
 
 void main() {
   ivec2 tile = ivec2(gl_WorkGroupID.xy);
   int t = tile.y * int(gl_NumWorkGroups.x) + tile.x;
   bool first = gl_LocalInvocationIndex == 0u, awake = wakes(tile, ivec2(gl_NumWorkGroups.xy), t), was_awake = states[t].awake != 0;
+  if (first) {
+    greatest_pl = 0;
+    first_texel = kNone;
+  }
   barrier();
   if (first) states[t].awake = int(awake);
-  if (!awake && !was_awake) {
-    if (first) {
-      tiles[t] = FilmTile(-1, 0, states[t].film_low_pl, states[t].film_high, 0, 0, 0, 0);
-      states[t].stirs[1 - turn] = 0;
-    }
-    return;
-  }
-  walks[gl_LocalInvocationIndex] = walk(tile, t, kRows);
-  memoryBarrierBuffer(); // the offering texel is stored twice
-  barrier();
-  if (first) report(t);
+  bool looked_at = awake || was_awake;
+  report(t, walk(tile, driesNow(uint(t), info), looked_at ? kRows : 0), looked_at);
 }
