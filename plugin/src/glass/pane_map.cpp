@@ -154,7 +154,11 @@ void PaneMap::rasterise(const PaneInfo& info) {
       }
     }
   }
-  for (const PaneTexel& texel : texels_) area_m2_ += static_cast<double>(texel.area_m2);
+  inside_.resize(texels_.size());
+  for (size_t i = 0; i < texels_.size(); ++i) {
+    area_m2_ += static_cast<double>(texels_[i].area_m2);
+    inside_[i] = texels_[i].area_m2 > 0.0f ? 1 : 0;
+  }
   if (area_m2_ <= 0.0) refusePane(info, "is smaller than a texel");
 }
 

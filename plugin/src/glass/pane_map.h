@@ -48,7 +48,7 @@ class PaneMap {
   const PaneGrid& grid() const { return grid_; }
   int texelCount() const { return grid_.size.x * grid_.size.y; }
   const PaneTexel& texel(int index) const { return texels_[static_cast<size_t>(index)]; }
-  bool inside(int index) const { return texel(index).area_m2 > 0.0f; }
+  bool inside(int index) const { return inside_[static_cast<size_t>(index)] != 0; }
   double area_m2() const { return area_m2_; }
 
   // Index of the texel at a place, or -1 where it is off the pane.
@@ -92,6 +92,7 @@ class PaneMap {
 
   PaneGrid grid_;
   std::vector<PaneTexel> texels_;
+  std::vector<uint8_t> inside_;  // by itself, as each drop on its way asks for it
   double area_m2_ = 0.0;
   glm::dvec2 middle_m_{0.0}, up_{0.0, 1.0};
   glm::dmat2 gridFromGlass_{1.0}, glassFromGrid_{1.0};
