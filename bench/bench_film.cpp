@@ -189,35 +189,52 @@ class Downpour {
   int64_t step_ = 0;
 };
 
-// The film's whole state, a volume for each texel, from one texture to another.
+// The film's whole state, a volume for each texel, from one buffer to another: as film_flow.comp reads and writes
+// it, by groups that walk over a tile as its do.
 class Copy {
  public:
   Copy(const GladGLContext& gl, const glass::PaneMap& map)
       : gl_(gl),
         tiles_(map.tileCount()),
-        program_(gl, {"copy.comp"}, {}, [](std::string_view) { return kText; }),
-        from_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
-        to_(gl, GL_R32I, map.grid().size.x, map.grid().size.y) {}
+        program_(gl, {"copy.comp"}, {}, source),
+        from_(gl, bytes(map)),
+        to_(gl, bytes(map)),
+        from_strips_(gl) {
+    from_.zero();
+    to_.zero();
+    from_strips_.show(GL_RGBA32I, shared::kStripSize * sizeof(int32_t), from_, 0, from_.bytes());
+  }
   void run() {
-    gl_.BindImageTexture(0, from_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_R32I);
-    gl_.BindImageTexture(1, to_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32I);
+    gl_.BindImageTexture(0, from_strips_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32I);
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, to_.name());
     program_.use();
     gl_.DispatchCompute(tiles_.x, tiles_.y, 1);
-    gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
  private:
-  static constexpr std::string_view kText = R"(layout(local_size_x = 16) in;
-layout(r32i, binding = 0) readonly uniform iimage2D from;
-layout(r32i, binding = 1) writeonly uniform iimage2D to;
+  static size_t bytes(const glass::PaneMap& map) {
+    return map.tileArea_m2().size() * shared::kTileSize * shared::kTileSize * sizeof(int32_t);
+  }
+  static std::string_view source(std::string_view path) {
+    return path == "copy.comp" ? kText : gl::shaderSource(path);
+  }
+  static constexpr std::string_view kText = R"(#include "shared/glass_types.glsl"
+layout(local_size_x = 8) in;
+layout(rgba32i, binding = 0) readonly uniform iimageBuffer from;
+layout(std430, binding = 3) writeonly buffer To { ivec4 to[]; };
+const int kStrips = kTileSize / kStripSize;
 void main() {
-  ivec2 cell = ivec2(gl_WorkGroupID.xy) * 16 + ivec2(gl_LocalInvocationID.x, 0);
-  for (int y = 0; y < 16; ++y, ++cell.y) imageStore(to, cell, imageLoad(from, cell));
+  int lane = int(gl_LocalInvocationIndex), up = lane < kStrips ? 1 : -1, across = int(gl_NumWorkGroups.x) * kStrips;
+  int y = int(gl_WorkGroupID.y) * kTileSize + (up > 0 ? 0 : kTileSize - 1);
+  int strip = y * across + int(gl_WorkGroupID.x) * kStrips + lane % kStrips;
+  for (int row = 0; row < kTileSize / 2; ++row, strip += up * across) to[strip] = imageLoad(from, strip);
 })";
   const GladGLContext& gl_;
   glm::uvec2 tiles_;
   gl::Program program_;
-  gl::Texture2D from_, to_;
+  gl::Buffer from_, to_;
+  gl::BufferTexture from_strips_;
 };
 
 void compare(const GladGLContext& gl, glm::ivec2 grid, int frames) {
