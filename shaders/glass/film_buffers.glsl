@@ -11,21 +11,25 @@ layout(std430, binding = 1) buffer Ridges {
 // Water below the pin lies still. A tile is looked at when some on it or on a tile beside it may flow, when it was given or lost water, and
 // when it is its turn to dry; and once more, as the film is in one buffer and then in the other.
 struct TileState {
-  int stirs[2]; // holds water that may flow, or was changed from outside: as of this step, and of the next
-  int awake;    // in the last step
+  int stirs; // holds water that may flow, or was changed from outside
+  int awake; // in the last step
   int film_low_pl, film_high; // of its last report
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };
 
 layout(location = 0) uniform int count;
-layout(location = 1) uniform int turn; // which of both is of this step
+layout(location = 1) uniform int turn; // of two, one for every other step
+
+// How many tiles a step looks at, and the command for so many groups: in rows, as GL promises no more than 65535 along an axis.
+struct AwakeTiles { uint groups_x, groups_y, groups_z, number; };
+const uint kTilesInRow = 32768u;
 
 int tilesAcross() { return (info.columns + kTileSize - 1) / kTileSize; }
 
 // The film lies in rows of whole tiles.
 int placeOf(int texel) { return texel / info.columns * (tilesAcross() * kTileSize) + texel % info.columns; }
 
-void wake(int texel) { states[texel / info.columns / kTileSize * tilesAcross() + texel % info.columns / kTileSize].stirs[turn] = 1; }
+void wake(int texel) { states[texel / info.columns / kTileSize * tilesAcross() + texel % info.columns / kTileSize].stirs = 1; }
 
 // In a test build one of these loses 1 % of what passes through it: FilmKernel of pane_gl.h.
 const int kTake = 1, kAdd = 2, kRidge = 3, kSweep = 4, kLeave = 5, kFlow = 6;

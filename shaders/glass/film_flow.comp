@@ -1,7 +1,7 @@
 // A film step: every texel gathers what its neighbours give and gives what they gather, dries, and may offer water to the drops. It reads the
 // film in one buffer and writes it to another, so that all see it as it was. The law is in shared/glass_film.glsl.
-// A tile is a group: two invocations for four columns, from the tile's lower and upper edge to its middle. Software GL, too, reads buffers as
-// images fast, but as storage slowly; and it runs through branches that nobody takes, but not through loops that nobody enters.
+// A tile that is awake is a group: two invocations for four columns, from the tile's lower and upper edge to its middle. Software GL, too, reads
+// buffers as images fast, but as storage slowly, and runs through branches that nobody takes.
 #include "glass/film_buffers.glsl"
 layout(local_size_x = 8) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
@@ -9,6 +9,10 @@ layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the cor
 layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
 layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
 layout(std430, binding = 2) writeonly buffer Report { int tiles[]; }; // FilmTile
+layout(std430, binding = 4) readonly buffer Awake {
+  AwakeTiles awake[2];
+  int listed[];
+};
 
 const int kStrips = kTileSize / kStripSize, kRows = kTileSize / 2, kWalks = 2 * kStrips;
 const int kNone = 0x7fffffff;
@@ -47,20 +51,13 @@ FilmCell cellOf(Column column, int y, int volume_pl, FilmStepInfo step) {
   return filmCell(volume_pl, between(column.drive_low, column.drive_high, f), between(column.metric_low, column.metric_high, f), step);
 }
 
-bool wakes(ivec2 tile, ivec2 tiles_across, int t) {
-  if (states[t].stirs[turn] != 0 || (driesNow(uint(t), info) && (states[t].film_low_pl | states[t].film_high) != 0)) return true;
-  return (tile.x > 0 && states[t - 1].stirs[turn] != 0) || (tile.x + 1 < tiles_across.x && states[t + 1].stirs[turn] != 0) ||
-         (tile.y > 0 && states[t - tiles_across.x].stirs[turn] != 0) ||
-         (tile.y + 1 < tiles_across.y && states[t + tiles_across.x].stirs[turn] != 0);
-}
-
 // Over an edge that looks up it is blown off, over others it drains.
 void leavePane(int volume_pl, vec2 outward, inout FilmTile sums) {
   if (dot(outward, vec2(info.up_x, info.up_y)) > 0.5) sums.blown_pl += volume_pl;
   else sums.drained_pl += volume_pl;
 }
 
-Walk walk(ivec2 tile, bool dries, int rows) {
+Walk walk(ivec2 tile, bool dries) {
   FilmStepInfo step = info;
   int lane = int(gl_LocalInvocationIndex), up = lane < kStrips ? 1 : -1, across = tilesAcross() * kStrips;
   int x = (tile.x * kStrips + lane % kStrips) * kStripSize, y = tile.y * kTileSize + (up > 0 ? 0 : kTileSize - 1);
@@ -89,7 +86,7 @@ Walk walk(ivec2 tile, bool dries, int rows) {
   // Over the pane's edges: to the left, to the right, behind and ahead.
   int over_left = 0, over_right = 0, over_back = 0, over_ahead = 0;
   Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0), 0, 0);
-  for (int row = 0; row < rows; ++row) {
+  for (int row = 0; row < kRows; ++row) {
     ivec4 next_pl = imageLoad(before, strip + up * across), after_pl;
     FilmCell left = cellOf(left_column, y, imageLoad(before, strip - 1).w, step);
     FilmCell right = cellOf(right_column, y, imageLoad(before, strip + 1).x, step);
@@ -150,7 +147,7 @@ Walk walk(ivec2 tile, bool dries, int rows) {
 }
 
 // Each invocation sums one field of FilmTile. One texel of a tile gives to the drops: the one with most, the first of those.
-void report(int t, Walk seen, bool looked_at) {
+void report(int t, Walk seen) {
   int lane = int(gl_LocalInvocationIndex);
   atomicMax(greatest_pl, seen.sums.event_pl);
   barrier();
@@ -168,24 +165,20 @@ void report(int t, Walk seen, bool looked_at) {
   int sum = 0;
   for (int k = 0; k < kWalks; ++k) sum += parts[k * kWalks + lane];
   bool stirs = lane == kWalks - 1;
-  if (stirs) states[t].stirs[1 - turn] = sum;
-  sum = stirs ? 0 : lane == 0 ? sum - 1 : sum;
-  if (!looked_at) sum = lane == 2 ? states[t].film_low_pl : lane == 3 ? states[t].film_high : sum;
-  tiles[t * kWalks + lane] = sum;
+  if (stirs) states[t].stirs = sum;
+  tiles[t * kWalks + lane] = stirs ? 0 : lane == 0 ? sum - 1 : sum;
   if (lane == 2) states[t].film_low_pl = sum;
   if (lane == 3) states[t].film_high = sum;
 }
 
 void main() {
-  ivec2 tile = ivec2(gl_WorkGroupID.xy);
-  int t = tile.y * int(gl_NumWorkGroups.x) + tile.x;
-  bool first = gl_LocalInvocationIndex == 0u, awake = wakes(tile, ivec2(gl_NumWorkGroups.xy), t), was_awake = states[t].awake != 0;
-  if (first) {
+  uint place = gl_WorkGroupID.y * kTilesInRow + gl_WorkGroupID.x;
+  if (place >= awake[turn].number) return;
+  int t = listed[place];
+  if (gl_LocalInvocationIndex == 0u) {
     greatest_pl = 0;
     first_texel = kNone;
   }
   barrier();
-  if (first) states[t].awake = int(awake);
-  bool looked_at = awake || was_awake;
-  report(t, walk(tile, driesNow(uint(t), info), looked_at ? kRows : 0), looked_at);
+  report(t, walk(ivec2(t % tilesAcross(), t / tilesAcross()), driesNow(uint(t), info)));
 }

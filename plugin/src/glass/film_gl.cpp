@@ -10,7 +10,8 @@ namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 5 * sizeof(int32_t);  // TileState in film_buffers.glsl
+constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);  // TileState in film_buffers.glsl
+constexpr std::array<uint32_t, 8> kNoneAwake{0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
 constexpr size_t kRidgeBytes = (2 * kRidgePieces + 1) * sizeof(int32_t);
 
@@ -56,6 +57,7 @@ FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky)
     : change(gl, {"glass/film_change.comp"}, defines(leaky)),
       sweep(gl, {"glass/film_sweep.comp"}, defines(leaky)),
       leave(gl, {"glass/film_leave.comp"}, defines(leaky)),
+      wake(gl, {"glass/film_wake.comp"}),
       flow(gl, {"glass/film_flow.comp"}, defines(leaky)) {}
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
@@ -63,7 +65,7 @@ std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKern
 }
 
 void abandonFilmPrograms(FilmPrograms& p) {
-  for (gl::Program* program : {&p.change, &p.sweep, &p.leave, &p.flow}) program->forget();
+  for (gl::Program* program : {&p.change, &p.sweep, &p.leave, &p.wake, &p.flow}) program->forget();
 }
 
 FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map)
@@ -73,6 +75,7 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       tiles_(map.tileArea_m2().size()),
       ridges_(gl, kRidgeBytes),
       states_(gl, tiles_ * kTileStateBytes),
+      awake_(gl, sizeof kNoneAwake + tiles_ * sizeof(int32_t)),
       metric_(gl, std::span<const shared::vec4>(map.nodeMetric())),
       metric_nodes_(gl),
       drive_nodes_(gl),
@@ -102,6 +105,7 @@ void FilmGl::clear() {
   for (gl::Buffer& film : film_) film.write(0, std::span<const int32_t>(dry));
   ridges_.zero();
   states_.zero();
+  awake_.write(0, std::span<const uint32_t>(kNoneAwake));
   dry_ = true;
   picture_is_old_ = true;
 }
@@ -247,14 +251,16 @@ void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, s
   image(0, film_strips_[turn_], GL_RGBA32I);
   image(1, metric_nodes_, GL_RGBA32F);
   image(2, drive_nodes_, GL_RGBA32F);
-  const gl::Buffer& after = film_[1 - turn_];
   gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
                       static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, after.name());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, film_[1 - turn_].name());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, awake_.name());
+  dispatch(programs_->wake, tiles_);
   programs_->flow.set(1, static_cast<int32_t>(turn_));
   programs_->flow.use();
-  const auto tiles = glm::uvec2(map_.tileCount());
-  gl_.DispatchCompute(tiles.x, tiles.y, 1);
+  gl_.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
+  gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, awake_.name());
+  gl_.DispatchComputeIndirect(static_cast<GLintptr>(turn_ * sizeof kNoneAwake / 2));
   gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
   turn_ = 1 - turn_;
@@ -342,6 +348,7 @@ void FilmGl::abandon() {
   picture_.forget();
   ridges_.forget();
   states_.forget();
+  awake_.forget();
   metric_.forget();
   for (Swept& swept : swept_) swept.buffer.forget();
   while (!pending_.empty()) {

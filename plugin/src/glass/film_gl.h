@@ -18,7 +18,7 @@ namespace rg::glass {
 class FilmPrograms {
  public:
   FilmPrograms(const GladGLContext& gl, FilmKernel leaky);
-  gl::Program change, sweep, leave, flow;
+  gl::Program change, sweep, leave, wake, flow;
 };
 
 class FilmGl {
@@ -75,7 +75,7 @@ class FilmGl {
   std::array<gl::Buffer, 2> film_;
   std::array<gl::BufferTexture, 2> film_strips_;
   size_t turn_ = 0;
-  gl::Buffer ridges_, states_, metric_;
+  gl::Buffer ridges_, states_, awake_, metric_;
   gl::BufferTexture metric_nodes_, drive_nodes_;
   gl::Texture2D picture_;
   bool picture_is_old_ = true;
