@@ -76,7 +76,9 @@ class PaneMap {
   static glm::dvec2 alongGlass(const PaneNode& node, const glm::dvec3& v);
 
   // Regions for shelter, see kRegions. None where the region has no glass.
-  std::optional<glm::dvec3> regionCentre(int region) const;
+  const std::optional<glm::dvec3>& regionCentre(int region) const {
+    return region_centre_[static_cast<size_t>(region)];
+  }
   const std::vector<int>& regionTexels(int region) const { return regions_[static_cast<size_t>(region)]; }
   // Outward area vector: the flux of a stream that meets all of it is -v . this.
   const glm::dvec3& regionArea_m2(int region) const { return region_area_[static_cast<size_t>(region)]; }
@@ -103,6 +105,7 @@ class PaneMap {
   std::vector<float> tile_area_m2_;
   std::array<std::vector<int>, kRegions> regions_;
   std::array<glm::dvec3, kRegions> region_area_{};
+  std::array<std::optional<glm::dvec3>, kRegions> region_centre_;
   glm::vec3 centre_m_{0.0f};
   float radius_m_ = 0.0f;
 };
