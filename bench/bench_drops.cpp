@@ -1,5 +1,5 @@
-// A tick of the drops on a windscreen by their number, one in twenty sliding. CPU time of the thread; counters
-// are means over the run.
+// A tick of the drops on a windscreen by their number, one in twenty sliding. CPU time of the thread;
+// counters are means over the run.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ using glass::PaneSim;
 constexpr double kWidth_m = 1.5, kHeight_m = 0.8, kSlope_rad = std::numbers::pi / 6.0;
 constexpr int kOneInSlides = 20;
 constexpr int kTicksToSettle = 16;  // sliding drops find their speed
-constexpr int kTicksToCount = 8;   // from one count of them to the next: it costs as much as a tick
+constexpr int kTicksToCount = 8;    // from one count of them to the next: it costs as much as a tick
 constexpr int kTicksOfRun = 32;     // then their way has swept up too many others, and all begins anew
 
 double unit(uint32_t i, uint32_t what) {
@@ -126,7 +126,8 @@ void DropTick(benchmark::State& state) {
   state.counters["sliding"] = sliding / counts;
   state.counters["ns_a_drop"] = 1e9 * total_s / static_cast<double>(state.iterations()) / (live / counts);
 }
-BENCHMARK(DropTick)->Arg(5000)->Arg(10000)->Arg(20000)->Arg(40000)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(DropTick)->Arg(5000)->Arg(10000)->Arg(20000)->Arg(40000)->UseManualTime()->Unit(
+    benchmark::kMicrosecond);
 
 }  // namespace
 

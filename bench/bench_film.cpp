@@ -31,8 +31,8 @@ constexpr const char* kUsage =
     "  --grid WxH   texels, 16 to 4096 along a side; may be given again (512x256 2048x1024)\n";
 
 constexpr double kTexel_m = 3e-3;
-constexpr double kFilm_m = 50e-6;    // downpours keep it so thick: it flows everywhere
-constexpr int kStepsFromWet = 60;    // then it is made wet again
+constexpr double kFilm_m = 50e-6;     // downpours keep it so thick: it flows everywhere
+constexpr int kStepsFromWet = 60;     // then it is made wet again
 constexpr int kTexelsForAnAdd = 512;  // some 100 mm/h, and what drops leave behind
 constexpr int kTexelsForATake = 2048;
 
@@ -151,7 +151,8 @@ class Downpour {
     order.info.evaporation_mps = 1e-9f;
     order.info.drops_allowed = 1;
     // A raked windscreen at some 50 km/h.
-    order.drive.assign(static_cast<size_t>(map_.nodeCount().x * map_.nodeCount().y), {0.3f, -4.9f, 0.1f, 0.2f});
+    order.drive.assign(static_cast<size_t>(map_.nodeCount().x * map_.nodeCount().y),
+                       {0.3f, -4.9f, 0.1f, 0.2f});
     if (order.step % kStepsFromWet == 0)
       wet(order);
     else
@@ -189,8 +190,8 @@ class Downpour {
   int64_t step_ = 0;
 };
 
-// The film's whole state, a volume for each texel, from one buffer to another: as film_flow.comp reads and writes
-// it, by groups that walk over a tile as its do.
+// The film's whole state, a volume for each texel, from one buffer to another: as film_flow.comp reads and
+// writes it, by groups that walk over a tile as its do.
 class Copy {
  public:
   Copy(const GladGLContext& gl, const glass::PaneMap& map)

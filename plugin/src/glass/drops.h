@@ -18,8 +18,8 @@ namespace rg::glass {
 // In thirds of 32 bytes, none of them across two lines of the cache: where it is and how wide, all that a
 // neighbour asks; whether it moves, asked of each drop in each tick; the rest.
 struct alignas(32) Drop {
-  glm::dvec2 place_m{0.0};  // grid metres
-  int64_t volume_pl = 0;    // 0: the slot is free
+  glm::dvec2 place_m{0.0};     // grid metres
+  int64_t volume_pl = 0;       // 0: the slot is free
   float base_radius_m = 0.0f;  // real
   int32_t next = -1;           // in its cell's list
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);  // TileState in film_buffers.glsl
+constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);                // TileState in film_buffers.glsl
 constexpr std::array<uint32_t, 8> kNoneAwake{0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
 constexpr size_t kRidgeBytes = (2 * kRidgePieces + 1) * sizeof(int32_t);
@@ -22,8 +22,8 @@ struct UploadLayout {
   explicit UploadLayout(const FilmOrder& order) {
     info = next(sizeof(shared::FilmStepInfo));
     drive = next(order.drive.size() * sizeof(shared::vec4));
-    changes = next((order.takes.size() + order.adds.size() + order.ridge_adds.size()) *
-                   sizeof(shared::FilmChange));
+    changes =
+        next((order.takes.size() + order.adds.size() + order.ridge_adds.size()) * sizeof(shared::FilmChange));
     leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
     texels = next(order.leave_texels.size() * sizeof(int));
   }
@@ -147,7 +147,8 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
     if (!dry_) runStep(orders[i], change_counts[i], *batch, starts[i], i * report.bytes);
     batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, dry_});
   }
-  gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
   batch->fence = gl::Fence(gl_);
   pending_.push_back(std::move(batch));
 }
