@@ -12,9 +12,10 @@
 #include <thread>
 #include <vector>
 
-#include "context.h"
+#include "off_screen.h"
 #include "osg_side.h"
 #include "rainglass_side.h"
+#include "target.h"
 
 namespace compare {
 namespace {
@@ -155,7 +156,7 @@ int run(int argc, char** argv) {
       throw std::runtime_error("no option " + option + " " + value +
                                "; there are --speed KMH (to 300) and --frames N (1 .. 100000)");
   }
-  const GladGLContext gl = makeContext();
+  const GladGLContext gl = bench::makeContext();
   const Target target(gl);
   OsgSide osg(target.framebuffer);
   RainglassSide rainglass(gl, target.framebuffer, RG_PLUGIN);

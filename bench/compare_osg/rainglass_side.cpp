@@ -6,7 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "context.h"
+#include "off_screen.h"
+#include "target.h"
 
 namespace compare {
 namespace {
@@ -29,7 +30,7 @@ RainglassSide::RainglassSide(const GladGLContext& gl, uint32_t framebuffer, cons
   check(api_->create(&create, &instance_));
   rg_gl_info info;
   api_->default_gl_info(&info);
-  info.get_proc = getProc;
+  info.get_proc = bench::getProc;
   check(api_->attach_gl(instance_, &info));
   check(api_->set_parameter(instance_, "rain.beyond", 0.0));  // OpenSceneGraph draws no far rain either
   gl_.GenQueries(1, &query_);

@@ -1,4 +1,4 @@
-// What the film's kernels share: the film itself, ridges, the orders of a step and the report of it.
+// What the film's kernels share: the film itself, ridges, the state of its tiles and the orders of a step.
 #include "shared/glass_film.glsl"
 
 layout(std140, binding = 0) uniform StepInfo { FilmStepInfo info; };
@@ -8,30 +8,34 @@ layout(std430, binding = 1) buffer Ridges {
   uint wiped_pl;                                          // thrown off so far, modulo 2^32
 };
 
-
 // Water below the pin lies still. A tile is looked at when some on it or on a tile beside it may flow, when it was given or lost water, and
-// when it is its turn to dry.
+// when it is its turn to dry; and once more, as the film is in one buffer and then in the other.
 struct TileState {
   int stirs; // holds water that may flow, or was changed from outside
-  int awake; // in this step
-  uint film_low_pl, film_high; // of its last report
+  int awake; // in the last step
+  int film_low_pl, film_high; // of its last report
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };
 
 layout(location = 0) uniform int count;
+layout(location = 1) uniform int turn; // of two, one for every other step
 
-void wake(int texel) {
-  int tiles_across = (info.columns + kTileSize - 1) / kTileSize;
-  states[texel / info.columns / kTileSize * tiles_across + texel % info.columns / kTileSize].stirs = 1;
-}
+// How many tiles a step looks at, and the command for so many groups: in rows, as GL promises no more than 65535 along an axis.
+struct AwakeTiles { uint groups_x, groups_y, groups_z, number; };
+const uint kTilesInRow = 32768u;
 
-// In a test build one kernel loses 1 % of what passes through it.
-int passed(int volume_pl) {
+int tilesAcross() { return (info.columns + kTileSize - 1) / kTileSize; }
+
+// The film lies in rows of whole tiles.
+int placeOf(int texel) { return texel / info.columns * (tilesAcross() * kTileSize) + texel % info.columns; }
+
+void wake(int texel) { states[texel / info.columns / kTileSize * tilesAcross() + texel % info.columns / kTileSize].stirs = 1; }
+
+// In a test build one of these loses 1 % of what passes through it: FilmKernel of pane_gl.h.
+const int kTake = 1, kAdd = 2, kRidge = 3, kSweep = 4, kLeave = 5, kFlow = 6;
+int passed(int kernel, int volume_pl) {
 #ifdef RG_LEAK
-  return volume_pl - volume_pl / 100;
-#else
-  return volume_pl;
+  if (kernel == RG_LEAK) return volume_pl - volume_pl / 100;
 #endif
+  return volume_pl;
 }
-
-ivec2 cellOf(int texel) { return ivec2(texel % info.columns, texel / info.columns); }

@@ -1,23 +1,54 @@
-// A film step's second half: every texel gathers what its neighbours give and gives what they gather, dries, and may offer water to the drops.
-// Each invocation walks up one column of a tile. The law is in shared/glass_film.glsl.
+// A film step: every texel gathers what its neighbours give and gives what they gather, dries, and may offer water to the drops. It reads the
+// film in one buffer and writes it to another, so that all see it as it was. The law is in shared/glass_film.glsl.
+// A tile that is awake is a group: two invocations for four columns, from the tile's lower and upper edge to its middle. Software GL, too, reads
+// buffers as images fast, but as storage slowly, and runs through branches that nobody takes.
 #include "glass/film_buffers.glsl"
-layout(local_size_x = kTileSize) in;
-layout(r32i, binding = 0) coherent writeonly uniform iimage2D film;
-layout(rgba32i, binding = 1) readonly uniform iimage2D wishes;
-layout(std430, binding = 4) readonly buffer Metric { vec4 metric[]; };
-layout(std430, binding = 2) writeonly buffer Report { FilmTile tiles[]; };
+layout(local_size_x = 8) in;
+layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
+layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
+layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
+layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
+layout(std430, binding = 2) writeonly buffer Report { int tiles[]; }; // FilmTile
+layout(std430, binding = 4) readonly buffer Awake {
+  AwakeTiles awake[2];
+  int listed[];
+};
+
+const int kStrips = kTileSize / kStripSize, kRows = kTileSize / 2, kWalks = 2 * kStrips;
+const int kNone = 0x7fffffff;
 
 // What an invocation saw on its way.
-struct Column {
+struct Walk {
   FilmTile sums;   // its part of the tile's report; the event is its greatest offer
   int offering_pl; // what is on the texel that makes it
   int stirs;
 };
-shared Column columns[kTileSize];
+// The greatest offer of all and the first texel that makes it; each walk's part of the fields of FilmTile.
+shared int greatest_pl, first_texel, parts[kWalks * kWalks];
 
-FilmCell load(ivec2 cell) {
-  ivec4 wish = imageLoad(wishes, cell);
-  return FilmCell(wish.x, intBitsToFloat(wish.w), wish.y, wish.z);
+// Fields along a column of a tile: at its lower and its upper edge.
+struct Column { vec4 metric_low, metric_high, drive_low, drive_high; };
+struct Corners { vec4 metric[4], drive[4]; };
+
+Corners cornersOf(ivec2 tile) {
+  int low = tile.y * (tilesAcross() + 1) + tile.x, high = low + tilesAcross() + 1;
+  return Corners(vec4[4](imageLoad(metric, low), imageLoad(metric, low + 1), imageLoad(metric, high), imageLoad(metric, high + 1)),
+                 vec4[4](imageLoad(drive, low), imageLoad(drive, low + 1), imageLoad(drive, high), imageLoad(drive, high + 1)));
+}
+
+// A texel's place between the edges of its tile.
+float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
+
+Column columnOf(Corners c, int x) {
+  float f = fraction(x);
+  return Column(between(c.metric[0], c.metric[1], f), between(c.metric[2], c.metric[3], f),
+                between(c.drive[0], c.drive[1], f), between(c.drive[2], c.drive[3], f));
+}
+Column columnBeside(int x, int tile_row) { return columnOf(cornersOf(ivec2(x >> 4, tile_row)), x); }
+
+FilmCell cellOf(Column column, int y, int volume_pl, FilmStepInfo step) {
+  float f = fraction(y);
+  return filmCell(volume_pl, between(column.drive_low, column.drive_high, f), between(column.metric_low, column.metric_high, f), step);
 }
 
 // Over an edge that looks up it is blown off, over others it drains.
@@ -26,99 +57,128 @@ void leavePane(int volume_pl, vec2 outward, inout FilmTile sums) {
   else sums.drained_pl += volume_pl;
 }
 
-int flowed(ivec2 cell, FilmCell me, FilmCell below, FilmCell above, inout FilmTile sums) {
-  FilmCell left = load(cell - ivec2(1, 0)), right = load(cell + ivec2(1, 0));
-  uint row = uint(info.columns), texel = uint(cell.y) * row + uint(cell.x);
-  int from_left = faceFlow_pl(left, left.x_pl, texel - 1u, me, me.x_pl, texel, info);
-  int to_right = faceFlow_pl(me, me.x_pl, texel, right, right.x_pl, texel + 1u, info);
-  int from_below = faceFlow_pl(below, below.y_pl, texel - row, me, me.y_pl, texel, info);
-  int to_above = faceFlow_pl(me, me.y_pl, texel, above, above.y_pl, texel + row, info);
-  if (left.volume_pl < 0) leavePane(-from_left, vec2(-1.0, 0.0), sums);
-  if (right.volume_pl < 0) leavePane(to_right, vec2(1.0, 0.0), sums);
-  if (below.volume_pl < 0) leavePane(-from_below, vec2(0.0, -1.0), sums);
-  if (above.volume_pl < 0) leavePane(to_above, vec2(0.0, 1.0), sums);
-  return me.volume_pl + passed(from_left) - to_right + passed(from_below) - to_above;
-}
+Walk walk(ivec2 tile, bool dries) {
+  FilmStepInfo step = info;
+  int lane = int(gl_LocalInvocationIndex), up = lane < kStrips ? 1 : -1, across = tilesAcross() * kStrips;
+  int x = (tile.x * kStrips + lane % kStrips) * kStripSize, y = tile.y * kTileSize + (up > 0 ? 0 : kTileSize - 1);
+  int strip = y * across + x / kStripSize, texel = y * step.columns + x;
 
-Column walk(ivec2 tile, int t) {
-  Column column = Column(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0), 0, 0);
-  int node = tile.y * (int(gl_NumWorkGroups.x) + 1) + tile.x, next = node + int(gl_NumWorkGroups.x) + 1;
-  float fx = (float(gl_LocalInvocationID.x) + 0.5) / float(kTileSize);
-  vec4 metric_low = between(metric[node], metric[node + 1], fx), metric_high = between(metric[next], metric[next + 1], fx);
-  ivec2 cell = tile * kTileSize + ivec2(gl_LocalInvocationID.x, 0);
-  if (cell.x >= info.columns) return column;
-  bool dries = driesNow(uint(t), info);
-  FilmCell below = load(cell - ivec2(0, 1)), me = load(cell);
-  for (int y = 0; y < kTileSize && cell.y < info.rows; ++y, ++cell.y) {
-    FilmCell above = load(cell + ivec2(0, 1));
-    if (me.volume_pl >= 0) {
-      vec4 m = between(metric_low, metric_high, (float(y) + 0.5) / float(kTileSize));
-      int texel = cell.y * info.columns + cell.x;
-      int volume = flowed(cell, me, below, above, column.sums);
-      if (dries) {
-        int dried = evaporated_pl(volume, uint(texel), m, info);
-        volume -= dried;
-        column.sums.evaporated_pl += dried;
-      }
-      int offered = offered_pl(volume, uint(texel), m, info);
-      if (offered > column.sums.event_pl) {
-        column.sums.event_texel = texel;
-        column.sums.event_pl = offered;
-        column.offering_pl = volume;
-      }
+  Corners own = cornersOf(tile), back = cornersOf(tile - ivec2(0, up));
+  Column left_column = columnBeside(x - 1, tile.y), right_column = columnBeside(x + kStripSize, tile.y);
+  Column columns[kStripSize];
+  FilmCell me[kStripSize];
+  uint glass[kStripSize];
+  float entry_m[kStripSize];
+  int from_back[kStripSize];
+  bool back_off[kStripSize];
+  ivec4 back_pl = imageLoad(before, strip - up * across), my_pl = imageLoad(before, strip);
+  for (int k = 0; k < kStripSize; ++k) {
+    columns[k] = columnOf(own, x + k);
+    FilmCell behind = cellOf(columnOf(back, x + k), y - up, back_pl[k], step);
+    me[k] = cellOf(columns[k], y, my_pl[k], step);
+    glass[k] = glassAt(uint(texel + k), step);
+    entry_m[k] = entryThickness_m(me[k], glass[k], step);
+    float entry_behind_m = entryThickness_m(behind, glassAt(uint(texel - up * step.columns + k), step), step);
+    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, entry_behind_m, me[k], me[k].y_pl * up, entry_m[k], step);
+    back_off[k] = behind.volume_pl < 0;
+  }
+
+  // Over the pane's edges: to the left, to the right, behind and ahead.
+  int over_left = 0, over_right = 0, over_back = 0, over_ahead = 0;
+  Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0), 0, 0);
+  for (int row = 0; row < kRows; ++row) {
+    ivec4 next_pl = imageLoad(before, strip + up * across), after_pl;
+    FilmCell left = cellOf(left_column, y, imageLoad(before, strip - 1).w, step);
+    FilmCell right = cellOf(right_column, y, imageLoad(before, strip + 1).x, step);
+    float entry_right_m = entryThickness_m(right, glassAt(uint(texel + kStripSize), step), step);
+    bool left_off = left.volume_pl < 0;
+    int from_left = flowBetween_pl(left, left.x_pl, entryThickness_m(left, glassAt(uint(texel - 1), step), step), me[0], me[0].x_pl, entry_m[0], step);
+    for (int k = 0; k < kStripSize; ++k) {
+      FilmCell beside = k + 1 < kStripSize ? me[(k + 1) % kStripSize] : right;
+      float entry_beside_m = k + 1 < kStripSize ? entry_m[(k + 1) % kStripSize] : entry_right_m;
+      int to_right = flowBetween_pl(me[k], me[k].x_pl, entry_m[k], beside, beside.x_pl, entry_beside_m, step);
+      FilmCell next = cellOf(columns[k], y + up, next_pl[k], step);
+      uint glass_next = glassAt(uint(texel + up * step.columns + k), step);
+      float entry_next_m = entryThickness_m(next, glass_next, step);
+      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, entry_m[k], next, next.y_pl * up, entry_next_m, step);
+
+      bool on = me[k].volume_pl >= 0;
+      over_left += on && left_off ? -from_left : 0;
+      over_right += on && beside.volume_pl < 0 ? to_right : 0;
+      over_back += on && back_off[k] ? -from_back[k] : 0;
+      over_ahead += on && next.volume_pl < 0 ? to_next : 0;
+
+      vec4 m = between(columns[k].metric_low, columns[k].metric_high, fraction(y));
+      int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_back[k]) - to_next;
+      int dried = dries && on ? evaporated_pl(volume, uint(texel + k), m, step) : 0;
+      volume = on ? volume - dried : -1;
+      seen.sums.evaporated_pl += dried;
+      int offered = offeredBy_pl(volume, glass[k], m, step);
+      // The greatest, and of those the first.
+      bool better = offered > seen.sums.event_pl || (offered > 0 && offered == seen.sums.event_pl && texel + k < seen.sums.event_texel);
+      seen.sums.event_texel = better ? texel + k : seen.sums.event_texel;
+      seen.sums.event_pl = better ? offered : seen.sums.event_pl;
+      seen.offering_pl = better ? volume : seen.offering_pl;
       // Asleep next time only if neighbours, too, have seen it lie still.
-      if (me.h_m >= info.pin_m || thickness_m(volume, m) >= info.pin_m) column.stirs = 1;
+      seen.stirs |= int(max(me[k].h_m, thickness_m(volume, m)) >= step.pin_m);
       uint whole = uint(max(volume, 0));
-      column.sums.film_low_pl += whole & 0xffffu;
-      column.sums.film_high += whole >> 16u;
-      imageStore(film, cell, ivec4(volume));
+      seen.sums.film_low_pl += whole & 0xffffu;
+      seen.sums.film_high += whole >> 16u;
+      after_pl[k] = volume;
+
+      left_off = !on;
+      back_off[k] = !on;
+      from_left = to_right;
+      from_back[k] = to_next;
+      me[k] = next;
+      glass[k] = glass_next;
+      entry_m[k] = entry_next_m;
     }
-    below = me;
-    me = above;
+    after[strip] = after_pl;
+    y += up;
+    strip += up * across;
+    texel += up * step.columns;
   }
-  return column;
+  leavePane(over_left, vec2(-1.0, 0.0), seen.sums);
+  leavePane(over_right, vec2(1.0, 0.0), seen.sums);
+  leavePane(over_back, vec2(0.0, -up), seen.sums);
+  leavePane(over_ahead, vec2(0.0, up), seen.sums);
+  return seen;
 }
 
-// The first of the invocations puts all columns together. One texel of a tile gives to the drops: the one with most, the first of those.
-void report(int t) {
-  FilmTile sum = columns[0].sums;
-  int offering_pl = columns[0].offering_pl, stirs = columns[0].stirs;
-  for (int k = 1; k < kTileSize; ++k) {
-    FilmTile part = columns[k].sums;
-    if (part.event_pl > sum.event_pl || (part.event_pl > 0 && part.event_pl == sum.event_pl && part.event_texel < sum.event_texel)) {
-      sum.event_pl = part.event_pl;
-      sum.event_texel = part.event_texel;
-      offering_pl = columns[k].offering_pl;
-    }
-    sum.film_low_pl += part.film_low_pl;
-    sum.film_high += part.film_high;
-    sum.drained_pl += part.drained_pl;
-    sum.blown_pl += part.blown_pl;
-    sum.evaporated_pl += part.evaporated_pl;
-    stirs |= columns[k].stirs;
-  }
-  if (sum.event_pl > 0) {
-    int left = offering_pl - sum.event_pl;
-    sum.film_low_pl += (uint(left) & 0xffffu) - (uint(offering_pl) & 0xffffu);
-    sum.film_high += (uint(left) >> 16u) - (uint(offering_pl) >> 16u);
-    imageStore(film, cellOf(sum.event_texel), ivec4(left));
-  }
-  tiles[t] = sum;
-  states[t].stirs = stirs;
-  states[t].film_low_pl = sum.film_low_pl;
-  states[t].film_high = sum.film_high;
+// Each invocation sums one field of FilmTile. One texel of a tile gives to the drops: the one with most, the first of those.
+void report(int t, Walk seen) {
+  int lane = int(gl_LocalInvocationIndex);
+  atomicMax(greatest_pl, seen.sums.event_pl);
+  barrier();
+  if (seen.sums.event_pl > 0 && seen.sums.event_pl == greatest_pl) atomicMin(first_texel, seen.sums.event_texel);
+  barrier();
+  bool gives = seen.sums.event_texel == first_texel;
+  int left = seen.offering_pl - seen.sums.event_pl, place = gives ? placeOf(first_texel) : 0;
+  if (gives) after[place / kStripSize][place % kStripSize] = left;
+  int film_low_pl = int(seen.sums.film_low_pl) + (gives ? (left & 0xffff) - (seen.offering_pl & 0xffff) : 0);
+  int film_high = int(seen.sums.film_high) + (gives ? (left >> 16) - (seen.offering_pl >> 16) : 0);
+  int part[kWalks] = int[kWalks](gives ? first_texel + 1 : 0, gives ? seen.sums.event_pl : 0, film_low_pl, film_high,
+                                 seen.sums.drained_pl, seen.sums.blown_pl, seen.sums.evaporated_pl, seen.stirs);
+  for (int field = 0; field < kWalks; ++field) parts[lane * kWalks + field] = part[field];
+  barrier();
+  int sum = 0;
+  for (int k = 0; k < kWalks; ++k) sum += parts[k * kWalks + lane];
+  bool stirs = lane == kWalks - 1;
+  if (stirs) states[t].stirs = sum;
+  tiles[t * kWalks + lane] = stirs ? 0 : lane == 0 ? sum - 1 : sum;
+  if (lane == 2) states[t].film_low_pl = sum;
+  if (lane == 3) states[t].film_high = sum;
 }
 
 void main() {
-  ivec2 tile = ivec2(gl_WorkGroupID.xy);
-  int t = tile.y * int(gl_NumWorkGroups.x) + tile.x;
-  bool first = gl_LocalInvocationIndex == 0u;
-  if (states[t].awake == 0) {
-    if (first) tiles[t] = FilmTile(-1, 0, states[t].film_low_pl, states[t].film_high, 0, 0, 0, 0);
-    return;
+  uint place = gl_WorkGroupID.y * kTilesInRow + gl_WorkGroupID.x;
+  if (place >= awake[turn].number) return;
+  int t = listed[place];
+  if (gl_LocalInvocationIndex == 0u) {
+    greatest_pl = 0;
+    first_texel = kNone;
   }
-  columns[gl_LocalInvocationIndex] = walk(tile, t);
-  memoryBarrierImage(); // the offering texel is stored twice
   barrier();
-  if (first) report(t);
+  report(t, walk(ivec2(t % tilesAcross(), t / tilesAcross()), driesNow(uint(t), info)));
 }

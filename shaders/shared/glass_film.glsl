@@ -1,5 +1,5 @@
 // What one film step does to a texel, from whole picolitres to whole picolitres: taken here, given there, so water is neither made nor lost in any
-// order. Runs in shaders/glass/film_wish.comp and film_flow.comp, and in C++ for tests.
+// order. Runs in shaders/glass/film_flow.comp, and in C++ for tests.
 #ifndef RG_SHARED_GLASS_FILM_GLSL
 #define RG_SHARED_GLASS_FILM_GLSL
 #include "shared/compat.glsl"
@@ -76,12 +76,16 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(vec4) drive, RG_IN(vec4) metric, RG
   return cell;
 }
 
-// How thick a film must be to run onto this texel when it is dry: glass is not the same everywhere, so fronts turn into fingers.
-RG_FN float frontThickness_m(uint texel, RG_IN(FilmStepInfo) info) { return info.front_m * (0.5f + unitFloat(pcg(texel ^ info.pane))); }
+// Glass is not the same everywhere: what sets a texel apart from others.
+RG_FN uint glassAt(uint texel, RG_IN(FilmStepInfo) info) { return pcg(texel ^ info.pane); }
 
-// Water passes into a texel unless that is dry and the film too thin for it; over the pane's edge it always does.
-RG_FN bool passesFront(float from_h_m, RG_IN(FilmCell) to, uint to_texel, RG_IN(FilmStepInfo) info) {
-  return to.volume_pl < 0 || to.h_m >= info.pin_m || from_h_m >= frontThickness_m(to_texel, info);
+// How thick a film must be to run onto this texel when it is dry, by what glass is there: so fronts turn into fingers.
+RG_FN float frontThickness_m(uint glass, RG_IN(FilmStepInfo) info) { return info.front_m * (0.5f + unitFloat(glass)); }
+
+// How thick a film must be to pass into a texel: onto dry glass as above; where it is wet, and over the pane's edge, it always does.
+RG_FN float entryThickness_m(RG_IN(FilmCell) to, uint glass, RG_IN(FilmStepInfo) info) {
+  float front_m = frontThickness_m(glass, info);
+  return to.volume_pl < 0 || to.h_m >= info.pin_m ? 0.0f : front_m;
 }
 
 // Surface tension between neighbours, out of a into b; the same with a minus sign from b's side. A share of the difference, small beside
@@ -93,12 +97,13 @@ RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) 
   return difference > 0 ? size : -size;
 }
 
-// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it.
+// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it; `a_entry_m`, `b_entry_m`:
+// entryThickness_m of both.
+RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, float a_entry_m, RG_IN(FilmCell) b, int b_pl, float b_entry_m, RG_IN(FilmStepInfo) info) {
+  return levelled_pl(a, b, info) + (a.h_m >= b_entry_m ? max(a_pl, 0) : 0) + (b.h_m >= a_entry_m ? min(b_pl, 0) : 0);
+}
 RG_FN int faceFlow_pl(RG_IN(FilmCell) a, int a_pl, uint a_texel, RG_IN(FilmCell) b, int b_pl, uint b_texel, RG_IN(FilmStepInfo) info) {
-  int flow = levelled_pl(a, b, info);
-  if (a_pl > 0 && passesFront(a.h_m, b, b_texel, info)) flow += a_pl;
-  if (b_pl < 0 && passesFront(b.h_m, a, a_texel, info)) flow += b_pl;
-  return flow;
+  return flowBetween_pl(a, a_pl, entryThickness_m(a, glassAt(a_texel, info), info), b, b_pl, entryThickness_m(b, glassAt(b_texel, info), info), info);
 }
 
 // A tile dries in every eighth step, for all eight: what else lies still on it need not be looked at in the steps between.
@@ -112,13 +117,16 @@ RG_FN int evaporated_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(Fil
   return max(min(volume_pl, whole), 0);
 }
 
-// What a texel would give to the drops: what is too thick for a film, or all of a thin one that breaks.
-RG_FN int offered_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
-  if (volume_pl <= 0 || info.drops_allowed == 0) return 0;
+// What a texel with such glass would give to the drops: what is too thick for a film, or all of a thin one that breaks.
+RG_FN int offeredBy_pl(int volume_pl, uint glass, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   float h_m = thickness_m(volume_pl, metric);
-  if (h_m > kOverfull_m) return volume_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
-  if (h_m < info.pin_m || h_m > info.rupture_m) return 0;
-  return unitFloat(pcg(pcg(texel ^ info.pane) + info.step)) < info.rupture_chance ? volume_pl : 0;
+  bool overfull = h_m > kOverfull_m, thin = h_m >= info.pin_m && h_m <= info.rupture_m;
+  bool breaks = thin && unitFloat(pcg(glass + info.step)) < info.rupture_chance;
+  int too_much = volume_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
+  return volume_pl <= 0 || info.drops_allowed == 0 ? 0 : overfull ? too_much : breaks ? volume_pl : 0;
+}
+RG_FN int offered_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+  return offeredBy_pl(volume_pl, glassAt(texel, info), metric, info);
 }
 
 // share / 65536 of a volume, without 64-bit numbers.

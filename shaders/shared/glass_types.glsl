@@ -6,6 +6,7 @@ RG_SHARED_BEGIN
 
 RG_CONST float kPicolitre_m3 = 1.0e-15f;
 RG_CONST int kTileSize = 16;      // texels along a tile's side: a work group of the film, and the grain of what it reports
+RG_CONST int kStripSize = 4;      // texels side by side that one invocation works on together
 RG_CONST int kBladeSegments = 64; // a blade's ridge is kept in so many pieces along it
 RG_CONST int kMaxGlassWipers = 8; // on one pane
 
@@ -44,6 +45,10 @@ struct FilmTake { int texel; int share_65536; };          // a drop ran over thi
 RG_SIZE(FilmTake, 8)
 struct RidgeAdd { int segment; int volume_pl; };          // a drop under a blade; segment = wiper slot * kBladeSegments + piece
 RG_SIZE(RidgeAdd, 8)
+// These three as the GPU has them: what happens to a texel in a step, in this order: share_65536 of its water is taken, for the step's take of this
+// number (-1: none), and added_pl is added. texel < 0: the ridge of segment -1 - texel gets added_pl.
+struct FilmChange { int texel; int added_pl; int share_65536; int take; };
+RG_SIZE(FilmChange, 16)
 struct RidgeLeave { int segment; int first; int count; int unused; }; // the ridge's water goes to `count` texels of a list; 0: off the glass
 RG_SIZE(RidgeLeave, 16)
 struct SweptTexel { int texel; int segment; };            // static: sorted by the angle at which the blade crosses

@@ -153,6 +153,43 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
   EXPECT_GT(events, 0);
 }
 
+// Tiles fall asleep and wake, after odd and even numbers of steps, each of which reads one copy of the film
+// and writes the other: nothing old may come back.
+TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
+  const Mesh mesh = windscreen(0.3, 0.2, rad(30));
+  glass::PaneSim sim(filmOnly(mesh), 1, 7);
+  FilmReference reference(sim.map());
+  glass::FilmGl gpu(gl, glass::makeFilmPrograms(gl), sim.map());
+  shared::FilmStepInfo info{};
+  info.columns = sim.map().grid().size.x;
+  info.rows = sim.map().grid().size.y;
+  info.up_y = 1.0f;
+  info.pin_m = 3e-6f;
+  info.front_m = 40e-6f;
+  info.evaporation_mps = 1e-7f;
+  const int middle = info.rows / 2 * info.columns + info.columns / 2;
+  for (int step = 0; step < 120; ++step) {
+    glass::FilmOrder order;
+    order.step = step;
+    order.info = info;
+    order.info.step = static_cast<uint32_t>(2 * step);
+    order.drive.assign(sim.map().nodes().size(), {0.0f, -4.9f, 0.0f, 0.0f});
+    // Now and then a little that lies still, or much that runs; between, all lies still for a while.
+    const uint32_t h = shared::pcg(static_cast<uint32_t>(step));
+    if (h % 9 == 0) {
+      order.takes.push_back({middle, 32768});
+      order.adds.push_back({middle, 10'000});
+      order.adds.push_back({middle + static_cast<int>(h >> 8) % 40, h % 2 == 0 ? 2'000'000 : 20'000});
+      if (order.adds[1].texel == middle) order.adds.pop_back();
+    }
+    std::vector<glass::FilmOrder> copy{order};
+    gpu.run(std::move(copy));
+    ASSERT_EQ(gpu.collect(true).size(), 1u);
+    reference.run(order);
+    ASSERT_EQ(gpu.readFilm(), reference.film) << "step " << step;
+  }
+}
+
 // tau > (2/3) rho g h sin a turns the net flow of a film round (physics.md 4).
 TEST(FilmLaw, windShearTurnsTheFlowRound) {
   const float h = 100e-6f, g = 9.81f * 0.5f;

@@ -121,6 +121,19 @@ void Texture::zero(int level) {
   gl().ClearTexImage(name(), level, format, integer ? GL_INT : GL_FLOAT, nullptr);
 }
 
+BufferTexture::BufferTexture(const GladGLContext& gl) : Object(gl, madeTexture(gl, GL_TEXTURE_BUFFER)) {}
+
+void BufferTexture::show(GLenum internalFormat, size_t texel_bytes, const Buffer& buffer, size_t offset,
+                         size_t bytes) {
+  GLint most = 0;
+  gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  if (bytes / texel_bytes > static_cast<size_t>(most)) {
+    throw Error(Error::Kind::kDriver,
+                "the driver shows no more than " + std::to_string(most) + " texels of a buffer");
+  }
+  gl().TextureBufferRange(name(), internalFormat, buffer.name(), signedSize(offset), signedSize(bytes));
+}
+
 Sampler::Sampler(const GladGLContext& gl, GLenum minimize, GLenum magnify, GLenum wrap)
     : Object(gl, made(gl, gl.CreateSamplers, "making a sampler")) {
   gl.SamplerParameteri(name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minimize));

@@ -133,6 +133,15 @@ struct TextureCube : Texture {  // write()'s layer is the face
       : Texture(gl, GL_TEXTURE_CUBE_MAP, internalFormat, size, size, 1, levels) {}
 };
 
+// A buffer seen as an array of texels: a range of it, from a multiple of 256 bytes on.
+class BufferTexture : public Object<detail::deleteTexture> {
+ public:
+  BufferTexture() = default;
+  explicit BufferTexture(const GladGLContext& gl);
+  // Throws Error::kDriver when it is more than the driver can show.
+  void show(GLenum internalFormat, size_t texel_bytes, const Buffer& buffer, size_t offset, size_t bytes);
+};
+
 // Levels of a full mip chain.
 int fullMipLevels(int width, int height);
 

@@ -38,6 +38,13 @@ int Drops::touching(const DropWorld& world, int slot) const {
       glm::clamp(glm::ivec2((drop.place_m - reach_m / metres) / kCell_m), glm::ivec2(0), cell_count_ - 1);
   const glm::ivec2 high =
       glm::clamp(glm::ivec2((drop.place_m + reach_m / metres) / kCell_m), glm::ivec2(0), cell_count_ - 1);
+  // Neighbours lie anywhere in memory: all are asked for before the first is waited for.
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      const int32_t first = cells_[static_cast<size_t>(y * cell_count_.x + x)];
+      if (first >= 0) __builtin_prefetch(&slots_.items[static_cast<size_t>(first)]);
+    }
+  }
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
       for (int other = cells_[static_cast<size_t>(y * cell_count_.x + x)]; other >= 0;

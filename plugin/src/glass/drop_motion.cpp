@@ -96,8 +96,8 @@ void Drops::slide(const DropWorld& world, int slot) {
   // Limat 2005 (value by eye).
   const double longer = 1.0 + std::min(1.5, speed / 0.3);
   drop.elongation += static_cast<float>((longer - static_cast<double>(drop.elongation)) * ease);
-  if (overEdge(world, slot)) return;
   const int texel = world.map.texelAt(drop.place_m);
+  if (overEdge(world, slot, texel)) return;
   if (texel != drop.texel) {
     drop.texel = texel;
     if (world.film.thickness_m(texel) > 0.0) {
@@ -110,9 +110,9 @@ void Drops::slide(const DropWorld& world, int slot) {
 }
 
 // Over the upper edge it is blown off, over any other it drains.
-bool Drops::overEdge(const DropWorld& world, int slot) {
+bool Drops::overEdge(const DropWorld& world, int slot, int texel) {
+  if (texel >= 0) return false;
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  if (world.map.texelAt(drop.place_m) >= 0) return false;
   const bool upward = glm::dot(glm::dvec2(drop.heading), world.map.up()) > 0.5;
   (upward ? world.ledger.blown_pl : world.ledger.drained_pl) += remove(slot);
   return true;

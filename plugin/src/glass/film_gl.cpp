@@ -10,7 +10,9 @@ namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);  // TileState in film_buffers.glsl
+constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);                // TileState in film_buffers.glsl
+constexpr std::array<uint32_t, 8> kNoneAwake{0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns
+constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
 constexpr size_t kRidgeBytes = (2 * kRidgePieces + 1) * sizeof(int32_t);
 
 size_t aligned(size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
@@ -20,15 +22,14 @@ struct UploadLayout {
   explicit UploadLayout(const FilmOrder& order) {
     info = next(sizeof(shared::FilmStepInfo));
     drive = next(order.drive.size() * sizeof(shared::vec4));
-    takes = next(order.takes.size() * sizeof(shared::FilmTake));
-    adds = next(order.adds.size() * sizeof(shared::FilmAdd));
-    ridge_adds = next(order.ridge_adds.size() * sizeof(shared::RidgeAdd));
+    changes =
+        next((order.takes.size() + order.adds.size() + order.ridge_adds.size()) * sizeof(shared::FilmChange));
     leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
     texels = next(order.leave_texels.size() * sizeof(int));
   }
   size_t next(size_t part) { return std::exchange(bytes, bytes + aligned(part)); }
   size_t bytes = 0;
-  size_t info, drive, takes, adds, ridge_adds, leaves, texels;
+  size_t info, drive, changes, leaves, texels;  // of changes there may be fewer
 };
 
 // Where the parts of a report lie, from its start.
@@ -40,8 +41,9 @@ struct ReportLayout {
   size_t ridges, taken, bytes;
 };
 
-std::vector<std::string> defines(bool leaky) {
-  return leaky ? std::vector<std::string>{"RG_LEAK"} : std::vector<std::string>{};
+std::vector<std::string> defines(FilmKernel leaky) {
+  if (leaky == FilmKernel::none) return {};
+  return {"RG_LEAK " + std::to_string(static_cast<int>(leaky))};
 }
 
 template <typename T>
@@ -52,21 +54,18 @@ void put(std::vector<unsigned char>& bytes, size_t at, const T* data, size_t cou
 }  // namespace
 
 FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky)
-    : take(gl, {"glass/film_take.comp"}, defines(leaky == FilmKernel::take)),
-      add(gl, {"glass/film_add.comp"}, defines(leaky == FilmKernel::add)),
-      ridge(gl, {"glass/ridge_add.comp"}, defines(leaky == FilmKernel::ridge)),
-      sweep(gl, {"glass/film_sweep.comp"}, defines(leaky == FilmKernel::sweep)),
-      leave(gl, {"glass/film_leave.comp"}, defines(leaky == FilmKernel::leave)),
-      wish(gl, {"glass/film_wish.comp"}, {}),
-      flow(gl, {"glass/film_flow.comp"}, defines(leaky == FilmKernel::step)) {}
+    : change(gl, {"glass/film_change.comp"}, defines(leaky)),
+      sweep(gl, {"glass/film_sweep.comp"}, defines(leaky)),
+      leave(gl, {"glass/film_leave.comp"}, defines(leaky)),
+      wake(gl, {"glass/film_wake.comp"}),
+      flow(gl, {"glass/film_flow.comp"}, defines(leaky)) {}
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
   return std::make_shared<FilmPrograms>(gl, leaky);
 }
 
 void abandonFilmPrograms(FilmPrograms& p) {
-  for (gl::Program* program : {&p.take, &p.add, &p.ridge, &p.sweep, &p.leave, &p.wish, &p.flow})
-    program->forget();
+  for (gl::Program* program : {&p.change, &p.sweep, &p.leave, &p.wake, &p.flow}) program->forget();
 }
 
 FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map)
@@ -74,28 +73,41 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       programs_(std::move(programs)),
       map_(map),
       tiles_(map.tileArea_m2().size()),
-      film_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
-      wishes_(gl, GL_RGBA32I, map.grid().size.x, map.grid().size.y),
       ridges_(gl, kRidgeBytes),
       states_(gl, tiles_ * kTileStateBytes),
-      metric_(gl, std::span<const shared::vec4>(map.nodeMetric())) {
+      awake_(gl, sizeof kNoneAwake + tiles_ * sizeof(int32_t)),
+      metric_(gl, std::span<const shared::vec4>(map.nodeMetric())),
+      metric_nodes_(gl),
+      drive_nodes_(gl),
+      picture_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
+      change_of_(static_cast<size_t>(map.texelCount()), -1) {
+  metric_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), metric_, 0, metric_.bytes());
+  for (size_t i = 0; i < film_.size(); ++i) {
+    film_[i] = gl::Buffer(gl, tiles_ * kTileTexels * sizeof(int32_t));
+    film_strips_[i] = gl::BufferTexture(gl);
+    film_strips_[i].show(GL_RGBA32I, shared::kStripSize * sizeof(int32_t), film_[i], 0, film_[i].bytes());
+  }
   clear();
+}
+
+// In a buffer of the film, as in film_buffers.glsl.
+size_t FilmGl::place(int texel) const {
+  const int columns = map_.grid().size.x;
+  return static_cast<size_t>(texel / columns * map_.tileCount().x * shared::kTileSize + texel % columns);
 }
 
 // Dry inside, -1 off the pane.
 void FilmGl::clear() {
-  std::vector<int32_t> dry;
-  std::vector<glm::ivec4> no_wishes;
+  std::vector<int32_t> dry(tiles_ * kTileTexels, -1);
   for (int i = 0; i < map_.texelCount(); ++i) {
-    dry.push_back(map_.inside(i) ? 0 : -1);
-    no_wishes.emplace_back(dry.back(), 0, 0, 0);
+    if (map_.inside(i)) dry[place(i)] = 0;
   }
-  const glm::ivec2 size = map_.grid().size;
-  film_.write(0, 0, 0, 0, size.x, size.y, GL_RED_INTEGER, GL_INT, dry.data());
-  wishes_.write(0, 0, 0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_INT, no_wishes.data());
+  for (gl::Buffer& film : film_) film.write(0, std::span<const int32_t>(dry));
   ridges_.zero();
   states_.zero();
+  awake_.write(0, std::span<const uint32_t>(kNoneAwake));
   dry_ = true;
+  picture_is_old_ = true;
 }
 
 void FilmGl::run(std::vector<FilmOrder>&& orders) {
@@ -105,7 +117,7 @@ void FilmGl::run(std::vector<FilmOrder>&& orders) {
 }
 
 void FilmGl::runBatch(std::span<FilmOrder> orders) {
-  std::vector<size_t> starts;
+  std::vector<size_t> starts, change_counts;
   size_t bytes = 0;
   for (const FilmOrder& order : orders) {
     starts.push_back(bytes);
@@ -117,9 +129,9 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
     const UploadLayout at(order);
     put(upload, starts[i] + at.info, &order.info, 1);
     put(upload, starts[i] + at.drive, order.drive.data(), order.drive.size());
-    put(upload, starts[i] + at.takes, order.takes.data(), order.takes.size());
-    put(upload, starts[i] + at.adds, order.adds.data(), order.adds.size());
-    put(upload, starts[i] + at.ridge_adds, order.ridge_adds.data(), order.ridge_adds.size());
+    const std::vector<shared::FilmChange> changes = changesOf(order);
+    put(upload, starts[i] + at.changes, changes.data(), changes.size());
+    change_counts.push_back(changes.size());
     put(upload, starts[i] + at.leaves, order.leaves.data(), order.leaves.size());
     put(upload, starts[i] + at.texels, order.leave_texels.data(), order.leave_texels.size());
   }
@@ -132,13 +144,35 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
       dry_ = false;
       watered_step_ = orders[i].step;
     }
-    if (!dry_) runStep(orders[i], *batch, starts[i], i * report.bytes);
+    if (!dry_) runStep(orders[i], change_counts[i], *batch, starts[i], i * report.bytes);
     batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, dry_});
   }
-  gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
   batch->fence = gl::Fence(gl_);
   pending_.push_back(std::move(batch));
+}
+
+// What happens to a texel in a step comes together: what is taken from it, then what it is given.
+std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
+  std::vector<shared::FilmChange> changes;
+  changes.reserve(order.takes.size() + order.adds.size() + order.ridge_adds.size());
+  for (const shared::FilmTake& take : order.takes) {
+    const auto number = static_cast<int>(changes.size());
+    change_of_[static_cast<size_t>(take.texel)] = number;
+    changes.push_back({take.texel, 0, take.share_65536, number});
+  }
+  for (const shared::FilmAdd& add : order.adds) {
+    const int known = change_of_[static_cast<size_t>(add.texel)];
+    if (known >= 0)
+      changes[static_cast<size_t>(known)].added_pl = add.volume_pl;
+    else
+      changes.push_back({add.texel, add.volume_pl, 0, -1});
+  }
+  for (const shared::FilmTake& take : order.takes) change_of_[static_cast<size_t>(take.texel)] = -1;
+  for (const shared::RidgeAdd& add : order.ridge_adds)
+    changes.push_back({-1 - add.segment, add.volume_pl, 0, -1});
+  return changes;
 }
 
 std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes) {
@@ -162,12 +196,14 @@ std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes) {
 
 void FilmGl::dispatch(const gl::Program& program, size_t count) {
   program.set(0, static_cast<int32_t>(count));
+  program.set(1, static_cast<int32_t>(turn_));
   program.use();
   gl_.DispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
   gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void FilmGl::runStep(const FilmOrder& order, const Batch& batch, size_t upload_at, size_t report_at) {
+void FilmGl::runStep(const FilmOrder& order, size_t changes, const Batch& batch, size_t upload_at,
+                     size_t report_at) {
   const UploadLayout at(order);
   const ReportLayout report(tiles_);
   const auto bind = [&](GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) {
@@ -178,21 +214,12 @@ void FilmGl::runStep(const FilmOrder& order, const Batch& batch, size_t upload_a
   gl_.BindBufferRange(GL_UNIFORM_BUFFER, 0, batch.upload.name(), static_cast<GLintptr>(upload_at + at.info),
                       sizeof(shared::FilmStepInfo));
   bind(1, ridges_, 0, kRidgeBytes);
+  bind(3, film_[turn_], 0, film_[turn_].bytes());
   bind(5, states_, 0, tiles_ * kTileStateBytes);
-  gl_.BindImageTexture(0, film_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32I);
-  gl_.BindImageTexture(1, wishes_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32I);
-  if (!order.takes.empty()) {
-    orders(at.takes, order.takes.size() * sizeof(shared::FilmTake));
+  if (changes > 0) {
+    orders(at.changes, changes * sizeof(shared::FilmChange));
     bind(2, batch.report, report_at + report.taken, kMostTakes * sizeof(int));
-    dispatch(programs_->take, order.takes.size());
-  }
-  if (!order.adds.empty()) {
-    orders(at.adds, order.adds.size() * sizeof(shared::FilmAdd));
-    dispatch(programs_->add, order.adds.size());
-  }
-  if (!order.ridge_adds.empty()) {
-    orders(at.ridge_adds, order.ridge_adds.size() * sizeof(shared::RidgeAdd));
-    dispatch(programs_->ridge, order.ridge_adds.size());
+    dispatch(programs_->change, changes);
   }
   if (!order.sweeps.empty()) {
     constexpr size_t kHalf = kRidgePieces * sizeof(int32_t);
@@ -201,8 +228,8 @@ void FilmGl::runStep(const FilmOrder& order, const Batch& batch, size_t upload_a
   }
   for (const SweepOrder& sweep : order.sweeps) {
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, sweptBuffer(sweep));
-    programs_->sweep.set(1, sweep.first);
-    programs_->sweep.set(2, sweep.residual_pl);
+    programs_->sweep.set(2, sweep.first);
+    programs_->sweep.set(3, sweep.residual_pl);
     dispatch(programs_->sweep, static_cast<size_t>(sweep.count));
   }
   if (!order.leaves.empty()) {
@@ -211,19 +238,44 @@ void FilmGl::runStep(const FilmOrder& order, const Batch& batch, size_t upload_a
          std::max(sizeof(int), order.leave_texels.size() * sizeof(int)));
     dispatch(programs_->leave, order.leaves.size());
   }
-  bind(2, batch.report, report_at, tiles_ * sizeof(shared::FilmTile));
-  bind(3, batch.upload, upload_at + at.drive, order.drive.size() * sizeof(shared::vec4));
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, metric_.name());
-  const auto tiles = glm::uvec2(map_.tileCount());
-  programs_->wish.use();
-  gl_.DispatchCompute(tiles.x, tiles.y, 1);
-  gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-  programs_->flow.use();
-  gl_.DispatchCompute(tiles.x, tiles.y, 1);
-  gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                    GL_BUFFER_UPDATE_BARRIER_BIT);
+  flow(order, batch, upload_at + at.drive, report_at);
   gl_.CopyNamedBufferSubData(ridges_.name(), batch.report.name(), 0,
                              static_cast<GLintptr>(report_at + report.ridges), kRidgeBytes);
+}
+
+void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, size_t report_at) {
+  const auto image = [&](GLuint unit, const gl::BufferTexture& texture, GLenum format) {
+    gl_.BindImageTexture(unit, texture.name(), 0, GL_FALSE, 0, GL_READ_ONLY, format);
+  };
+  drive_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), batch.upload, drive_at,
+                    order.drive.size() * sizeof(shared::vec4));
+  image(0, film_strips_[turn_], GL_RGBA32I);
+  image(1, metric_nodes_, GL_RGBA32F);
+  image(2, drive_nodes_, GL_RGBA32F);
+  gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
+                      static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, film_[1 - turn_].name());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, awake_.name());
+  dispatch(programs_->wake, tiles_);
+  programs_->flow.set(1, static_cast<int32_t>(turn_));
+  programs_->flow.use();
+  gl_.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
+  gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, awake_.name());
+  gl_.DispatchComputeIndirect(static_cast<GLintptr>(turn_ * sizeof kNoneAwake / 2));
+  gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
+  turn_ = 1 - turn_;
+  picture_is_old_ = true;
+}
+
+const gl::Texture2D& FilmGl::picture() {
+  if (!std::exchange(picture_is_old_, false)) return picture_;
+  gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, film_[turn_].name());
+  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, map_.tileCount().x * shared::kTileSize);
+  picture_.write(0, 0, 0, 0, picture_.width(), picture_.height(), GL_RED_INTEGER, GL_INT, nullptr);
+  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  return picture_;
 }
 
 GLuint FilmGl::sweptBuffer(const SweepOrder& order) {
@@ -278,9 +330,9 @@ std::vector<FilmReport> FilmGl::collect(bool wait) {
 }
 
 std::vector<int32_t> FilmGl::readFilm() const {
-  std::vector<int32_t> out(static_cast<size_t>(map_.texelCount()));
-  gl_.GetTextureImage(film().name(), 0, GL_RED_INTEGER, GL_INT,
-                      static_cast<GLsizei>(out.size() * sizeof(int32_t)), out.data());
+  std::vector<int32_t> all(tiles_ * kTileTexels), out(static_cast<size_t>(map_.texelCount()));
+  film_[turn_].read(0, all.data(), all.size() * sizeof(int32_t));
+  for (int i = 0; i < map_.texelCount(); ++i) out[static_cast<size_t>(i)] = all[place(i)];
   return out;
 }
 
@@ -291,10 +343,13 @@ std::vector<int32_t> FilmGl::readRidges() const {
 }
 
 void FilmGl::abandon() {
-  film_.forget();
-  wishes_.forget();
+  for (gl::Buffer& film : film_) film.forget();
+  for (gl::BufferTexture& strips : film_strips_) strips.forget();
+  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_}) nodes->forget();
+  picture_.forget();
   ridges_.forget();
   states_.forget();
+  awake_.forget();
   metric_.forget();
   for (Swept& swept : swept_) swept.buffer.forget();
   while (!pending_.empty()) {

@@ -1,7 +1,7 @@
-// A pane's film on the GPU: a texture of whole picolitres, the ridges of its blades, and batches of steps
-// under way.
+// A pane's film on the GPU: whole picolitres, the ridges of its blades, and batches of steps under way.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <memory>
@@ -18,7 +18,7 @@ namespace rg::glass {
 class FilmPrograms {
  public:
   FilmPrograms(const GladGLContext& gl, FilmKernel leaky);
-  gl::Program take, add, ridge, sweep, leave, wish, flow;
+  gl::Program change, sweep, leave, wake, flow;
 };
 
 class FilmGl {
@@ -31,7 +31,8 @@ class FilmGl {
   // Reports of the oldest batch once the GPU is done with it; `wait` waits for it. Empty: not yet.
   std::vector<FilmReport> collect(bool wait);
 
-  const gl::Texture2D& film() const { return film_; }
+  // The film as it is, R32I, row by row; made when asked for.
+  const gl::Texture2D& picture();
   std::vector<int32_t> readFilm() const;
   std::vector<int32_t> readRidges() const;
   void abandon();
@@ -55,8 +56,12 @@ class FilmGl {
   };
 
   void runBatch(std::span<FilmOrder> orders);
-  void runStep(const FilmOrder& order, const Batch& batch, size_t upload_at, size_t report_at);
+  void runStep(const FilmOrder& order, size_t changes, const Batch& batch, size_t upload_at,
+               size_t report_at);
+  void flow(const FilmOrder& order, const Batch& batch, size_t drive_at, size_t report_at);
   void clear();
+  std::vector<shared::FilmChange> changesOf(const FilmOrder& order);
+  size_t place(int texel) const;
   std::unique_ptr<Batch> freeBatch(size_t upload_bytes);
   FilmReport read(const Batch& batch, size_t index);
   GLuint sweptBuffer(const SweepOrder& order);
@@ -66,8 +71,15 @@ class FilmGl {
   std::shared_ptr<FilmPrograms> programs_;
   const PaneMap& map_;
   size_t tiles_;
-  gl::Texture2D film_, wishes_;
-  gl::Buffer ridges_, states_, metric_;
+  // A step reads the film in the buffer of its turn and writes it to the other: rows of whole tiles.
+  std::array<gl::Buffer, 2> film_;
+  std::array<gl::BufferTexture, 2> film_strips_;
+  size_t turn_ = 0;
+  gl::Buffer ridges_, states_, awake_, metric_;
+  gl::BufferTexture metric_nodes_, drive_nodes_;
+  gl::Texture2D picture_;
+  bool picture_is_old_ = true;
+  std::vector<int> change_of_;  // texel: its place among a step's changes, -1 between steps
   std::vector<Swept> swept_;
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;

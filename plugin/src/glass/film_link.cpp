@@ -70,10 +70,10 @@ void FilmLink::add(int texel, int64_t volume_pl) {
     return;
   }
   volume_pl = passed(LeakyKernel::exchange, volume_pl);
-  int64_t& sum = sums_[static_cast<size_t>(texel)];
+  int32_t& sum = sums_[static_cast<size_t>(texel)];
   if (sum == 0) touched_.push_back(texel);
   const int64_t fits = std::min(volume_pl, kMostToTexel_pl - sum);
-  sum += fits;
+  sum += static_cast<int32_t>(fits);
   gathered_pl_ += fits;
   ledger_.drained_pl += volume_pl - fits;  // a flood that no film holds
 }
@@ -141,7 +141,7 @@ void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared
   leaving_.fill(false);
   if (!attached_) return;
   for (const int texel : touched_) {
-    order_.adds.push_back({texel, static_cast<int>(sums_[static_cast<size_t>(texel)])});
+    order_.adds.push_back({texel, sums_[static_cast<size_t>(texel)]});
     sums_[static_cast<size_t>(texel)] = 0;
   }
   touched_.clear();

@@ -67,7 +67,7 @@ class FilmLink {
   bool attached_ = false;
   int64_t first_step_ = 0, last_reported_ = -1, next_step_ = 0;
   FilmOrder order_;
-  std::vector<int64_t> sums_;      // given to a texel in this step
+  std::vector<int32_t> sums_;      // given to a texel in this step
   std::vector<int> touched_;       // texels with a sum
   std::vector<int64_t> taken_in_;  // the step in which somebody asked for a texel
   std::vector<Taker> takers_;

@@ -148,7 +148,7 @@ PaneDrawn PaneGl::drawn() const {
   out.index_count = static_cast<int32_t>(parts_->sim->mesh().indices.size());
   out.centre_m = map.centre_m();
   out.radius_m = map.radius_m();
-  out.film = parts_->film.film().name();
+  out.film = parts_->film.picture().name();
   out.film_size = map.grid().size;
   out.position = parts_->maps.position.name();
   out.metric = parts_->maps.metric.name();

@@ -154,7 +154,11 @@ void PaneMap::rasterise(const PaneInfo& info) {
       }
     }
   }
-  for (const PaneTexel& texel : texels_) area_m2_ += static_cast<double>(texel.area_m2);
+  inside_.resize(texels_.size());
+  for (size_t i = 0; i < texels_.size(); ++i) {
+    area_m2_ += static_cast<double>(texels_[i].area_m2);
+    inside_[i] = texels_[i].area_m2 > 0.0f ? 1 : 0;
+  }
   if (area_m2_ <= 0.0) refusePane(info, "is smaller than a texel");
 }
 
@@ -295,14 +299,11 @@ void PaneMap::makeRegions() {
     regions_[r].push_back(i);
     region_area_[r] += static_cast<double>(texel(i).area_m2) * glm::dvec3(texel(i).normal);
   }
-}
-
-std::optional<glm::dvec3> PaneMap::regionCentre(int region) const {
-  const std::vector<int>& texels = regionTexels(region);
-  if (texels.empty()) return std::nullopt;
-  glm::dvec3 sum{0.0};
-  for (const int i : texels) sum += glm::dvec3(texel(i).position_m);
-  return sum / static_cast<double>(texels.size());
+  for (size_t r = 0; r < regions_.size(); ++r) {
+    glm::dvec3 sum{0.0};
+    for (const int i : regions_[r]) sum += glm::dvec3(texel(i).position_m);
+    if (!regions_[r].empty()) region_centre_[r] = sum / static_cast<double>(regions_[r].size());
+  }
 }
 
 // Vertices at one place share their normal, though they may have been split for uv or shading.

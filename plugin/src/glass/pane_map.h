@@ -48,7 +48,7 @@ class PaneMap {
   const PaneGrid& grid() const { return grid_; }
   int texelCount() const { return grid_.size.x * grid_.size.y; }
   const PaneTexel& texel(int index) const { return texels_[static_cast<size_t>(index)]; }
-  bool inside(int index) const { return texel(index).area_m2 > 0.0f; }
+  bool inside(int index) const { return inside_[static_cast<size_t>(index)] != 0; }
   double area_m2() const { return area_m2_; }
 
   // Index of the texel at a place, or -1 where it is off the pane.
@@ -76,7 +76,9 @@ class PaneMap {
   static glm::dvec2 alongGlass(const PaneNode& node, const glm::dvec3& v);
 
   // Regions for shelter, see kRegions. None where the region has no glass.
-  std::optional<glm::dvec3> regionCentre(int region) const;
+  const std::optional<glm::dvec3>& regionCentre(int region) const {
+    return region_centre_[static_cast<size_t>(region)];
+  }
   const std::vector<int>& regionTexels(int region) const { return regions_[static_cast<size_t>(region)]; }
   // Outward area vector: the flux of a stream that meets all of it is -v . this.
   const glm::dvec3& regionArea_m2(int region) const { return region_area_[static_cast<size_t>(region)]; }
@@ -92,6 +94,7 @@ class PaneMap {
 
   PaneGrid grid_;
   std::vector<PaneTexel> texels_;
+  std::vector<uint8_t> inside_;  // by itself, as each drop on its way asks for it
   double area_m2_ = 0.0;
   glm::dvec2 middle_m_{0.0}, up_{0.0, 1.0};
   glm::dmat2 gridFromGlass_{1.0}, glassFromGrid_{1.0};
@@ -102,6 +105,7 @@ class PaneMap {
   std::vector<float> tile_area_m2_;
   std::array<std::vector<int>, kRegions> regions_;
   std::array<glm::dvec3, kRegions> region_area_{};
+  std::array<std::optional<glm::dvec3>, kRegions> region_centre_;
   glm::vec3 centre_m_{0.0f};
   float radius_m_ = 0.0f;
 };

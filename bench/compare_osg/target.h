@@ -1,4 +1,4 @@
-// OpenGL 4.5 without a window, with the old functions that OSG wants, and what is drawn into.
+// What is drawn into.
 #pragma once
 
 #include <glad/gl.h>
@@ -9,11 +9,6 @@
 #include "side.h"
 
 namespace compare {
-
-// Made current for good. Throws std::runtime_error.
-GladGLContext makeContext();
-// As rg_gl_info wants it.
-void* getProc(void* user, const char* name);
 
 // As an image generator has it: linear light in half floats, and depth.
 struct Target {

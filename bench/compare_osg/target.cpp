@@ -1,42 +1,9 @@
-#include "context.h"
-
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
+#include "target.h"
 
 #include <cmath>
-#include <cstring>
-#include <stdexcept>
 #include <vector>
 
 namespace compare {
-
-GladGLContext makeContext() {
-  EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (display == EGL_NO_DISPLAY) display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-  if (!eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
-    throw std::runtime_error("there is no EGL");
-  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                           4,
-                           EGL_CONTEXT_MINOR_VERSION,
-                           5,
-                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                           EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT,
-                           EGL_NONE};
-  const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
-  if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
-    throw std::runtime_error("there is no OpenGL 4.5 with the compatibility profile");
-  GladGLContext gl{};
-  if (gladLoadGLContext(&gl, eglGetProcAddress) == 0)
-    throw std::runtime_error("OpenGL's functions cannot be loaded");
-  return gl;
-}
-
-void* getProc(void*, const char* name) {
-  const auto function = eglGetProcAddress(name);
-  void* address = nullptr;
-  std::memcpy(&address, &function, sizeof address);
-  return address;
-}
 
 Target::Target(const GladGLContext& context) : gl(context) {
   gl.CreateTextures(GL_TEXTURE_2D, 1, &colour);

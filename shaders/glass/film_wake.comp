@@ -1,0 +1,33 @@
+// Which tiles a step looks at, as a list; the others report what they did. An invocation for each tile.
+#include "glass/film_buffers.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 2) writeonly buffer Report { FilmTile tiles[]; };
+layout(std430, binding = 4) buffer Awake {
+  AwakeTiles awake[2]; // this step's, and the next's made ready
+  int listed[];
+};
+
+bool stirs(ivec2 tile) { return states[tile.y * tilesAcross() + tile.x].stirs != 0; }
+
+bool wakes(int t) {
+  ivec2 tile = ivec2(t % tilesAcross(), t / tilesAcross()), last = ivec2(tilesAcross(), count / tilesAcross()) - 1;
+  bool dries = driesNow(uint(t), info) && (states[t].film_low_pl | states[t].film_high) != 0;
+  return dries || stirs(tile) || stirs(ivec2(max(tile.x - 1, 0), tile.y)) || stirs(ivec2(min(tile.x + 1, last.x), tile.y)) ||
+         stirs(ivec2(tile.x, max(tile.y - 1, 0))) || stirs(ivec2(tile.x, min(tile.y + 1, last.y)));
+}
+
+void main() {
+  int t = int(gl_GlobalInvocationID.x);
+  if (t == 0) awake[1 - turn] = AwakeTiles(0u, 1u, 1u, 0u);
+  if (t >= count) return;
+  bool now = wakes(t), looked_at = now || states[t].awake != 0;
+  states[t].awake = int(now);
+  if (looked_at) {
+    uint place = atomicAdd(awake[turn].number, 1u);
+    listed[place] = t;
+    atomicMax(awake[turn].groups_x, min(place + 1u, kTilesInRow));
+    atomicMax(awake[turn].groups_y, place / kTilesInRow + 1u);
+  } else {
+    tiles[t] = FilmTile(-1, 0, uint(states[t].film_low_pl), uint(states[t].film_high), 0, 0, 0, 0);
+  }
+}
