@@ -6,7 +6,7 @@ layout(binding = 0) uniform sampler2D scene_depth;
 layout(binding = 2) uniform sampler2D pattern;  // rgb: normals (x to the side, y up, z to the eye), 0.5 is 0; a: how much rain
 
 layout(location = 0) noperspective in vec3 ray;
-layout(location = 1) noperspective in vec4 map_relief;
+layout(location = 1) noperspective in vec3 map_relief;
 layout(location = 2) noperspective in vec3 light;
 layout(location = 3) noperspective in vec3 light_side;
 layout(location = 4) noperspective in vec3 light_up;
@@ -15,6 +15,8 @@ layout(location = 6) noperspective in vec3 lamps_middle;
 layout(location = 7) noperspective in vec4 bound_far[VOLUMES];
 layout(location = 7 + VOLUMES) noperspective in vec4 bound_near[VOLUMES];
 layout(location = 0) out vec4 colour;
+
+layout(location = 1) uniform float pixel_level;  // log2 of a pixel on the map, radians: the whole draw's, as one level for all is fetched at less cost
 
 // How far the ray goes through air that may hold rain.
 float rayEnd(float stretch) {
@@ -55,7 +57,7 @@ RainOpen openAir(float stretch, float end) {
 // Of the pattern in a layer: how much rain, mean 1, and the light it shows.
 vec4 layerOf(int layer, vec3 lit) {
   vec2 at = vec2(map_relief.x, map_relief.y / beyond.repeats.w) * (beyond.repeats[layer] / 6.2831853);
-  vec4 p = textureLod(pattern, at + vec2(0.37 * float(layer), beyond.scroll[layer]), map_relief.w + beyond.level[layer]);
+  vec4 p = textureLod(pattern, at + vec2(0.37 * float(layer), beyond.scroll[layer]), pixel_level + beyond.level[layer]);
   float contrast = beyond.contrast[layer] * map_relief.z;
   vec2 normal = (2.0 * p.xy - 1.0) * contrast;
   // A drop is a lens: what it shows is upside down.

@@ -8,7 +8,7 @@ layout(location = 0) in uvec4 tile_place;      // column and row; farthest
 layout(location = 1) in uvec4 tile_bounds[4];  // as RainTile's
 
 layout(location = 0) noperspective out vec3 ray;         // of unit depth
-layout(location = 1) noperspective out vec4 map_relief;  // xy: on the pattern's map, radians; z: contrast, 0 where the map ends; w: log2 of a pixel there
+layout(location = 1) noperspective out vec3 map_relief;  // xy: on the pattern's map, radians; z: contrast, 0 where the map ends
 layout(location = 2) noperspective out vec3 light;       // of the rain, as the target holds it,
 layout(location = 3) noperspective out vec3 light_side;  // and by how much what lies beyond is brighter to the side
 layout(location = 4) noperspective out vec3 light_up;    // and up
@@ -84,8 +84,7 @@ void main() {
   vec3 towards = normalize(ray);
   // Near the axis the map shrinks to nothing: streaks are seen end on there, and the haze is even.
   float off_axis = length(cross(towards, beyond.axis.xyz));
-  float pixel_rad = 1.0 / (look.focal.y * length(ray) * max(off_axis, 0.02));
-  map_relief = vec4(onMap(ray, middle), smoothstep(0.03, 0.14, off_axis), log2(pixel_rad));
+  map_relief = vec3(onMap(ray, middle), smoothstep(0.03, 0.14, off_axis));
 
   vec3 up = normalize(towards * dot(towards, beyond.axis.xyz) - beyond.axis.xyz + vec3(0.0, 0.0, 1e-5));  // the map's second way
   vec3 side = cross(towards, up);

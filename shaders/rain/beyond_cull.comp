@@ -17,10 +17,11 @@ void main() {
   ivec2 from = ivec2(look.viewport.xy) + ivec2(corner.x, corner.y + row);
   ivec2 last = textureSize(scene_depth, 0) - 1;
   uint columns = min(side, size.x - corner.x);
-  float farthest = 0.0;
+  bool reversed = look.depth_rows.y > 0.0;
+  float farthest = reversed ? 1.0 : 0.0;  // as stored
   for (uint i = 0u; i < columns; ++i) {
     float stored = texelFetch(scene_depth, clamp(from + ivec2(i, 0), ivec2(0), last), 0).r;
-    farthest = max(farthest, rainSceneDepth(stored, look.depth_rows, look.zero_to_one));
+    farthest = reversed ? min(farthest, stored) : max(farthest, stored);
   }
-  atomicMax(tiles[tile].farthest, floatBitsToUint(farthest));
+  atomicMax(tiles[tile].farthest, floatBitsToUint(rainSceneDepth(farthest, look.depth_rows, look.zero_to_one)));
 }

@@ -1,5 +1,6 @@
 // Works out each drop's streak once, and hands those to be seen to the draw call: a workgroup's stand side by side at the head of its own
 // part of `drawn`, in the order of their slots, so that the same drops always give the same picture; one draw command for each workgroup.
+// Defines: SOLIDS where flakes or stones may be among them, as software GL runs both sides of every branch.
 #include "shared/rain_drop.glsl"
 layout(std140, binding = 0) uniform ClassBlock {
   RainClass classes[kRainClasses];
@@ -43,6 +44,9 @@ bool seenOf(uint slot, out Seen result) {
   RainDrop drop = records[slot];
   if (drop.diameter_m <= 0.0) return false;
   RainClass its_class = classes[rainClassOf(drop)];
+#ifndef SOLIDS
+  its_class.base.w = kRainIsRain;
+#endif
   int is_of = its_class.base.w;
   RainStreak streak = rainStreak(drop, its_class, rain_view);
   float depth = dot(streak.drop_m, look.forward.xyz);

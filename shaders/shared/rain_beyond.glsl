@@ -60,7 +60,7 @@ struct RainOpen {
 // The share of what particles take in all that they take beyond a distance. The right total and the right start; between, the true law (a sum
 // over all sizes, each to its own reach) is some per cent off. As exp(-s / mean), but without its cost.
 RG_FN float rainTakenBeyond(float distance_m, float mean_m) {
-  float left = max(0.0f, 1.0f - distance_m / (16.0f * mean_m));
+  float left = max(0.0f, 1.0f - distance_m * (1.0f / (16.0f * mean_m)));
   left *= left;
   left *= left;
   left *= left;

@@ -25,12 +25,12 @@ struct RainLook {
   vec4 depth_rows;  // clip z = x * eye z + y, clip w = z * eye z + w
   uint lamp_count;
   uint zero_to_one;
-  uint soft_depth;   // 1: read the host's depth
   uint environment;  // levels of the cube map, 0: none
   uint srgb;
   uint colour_behind;  // 1: the host's colour can be read
   uint spare0;
   uint spare1;
+  uint spare2;
   RainLamp lamps[kRainLamps];
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 using shared::RainTile;
 
-constexpr int kLayers = 4;       // with the haze
-constexpr GLint kOnlyLayer = 0;  // the shaders' uniform
+constexpr int kLayers = 4;                        // with the haze
+constexpr GLint kOnlyLayer = 0, kPixelLevel = 1;  // the shaders' uniforms
 constexpr GLint kCount = 0;
 constexpr GLuint kPatternUnit = 2;
 constexpr size_t kFirstTiles = 1024;  // 1280 x 720
@@ -123,14 +123,13 @@ void BeyondRenderer::draw(const RainDraw& draw, const BeyondLook& look) {
   const bool at_once = Canvas::readsDepth(draw.target);
   if (at_once) o.cullTiles(block.scroll.w);
   for (int layer = at_once ? -1 : kLayers - 1; layer >= (at_once ? -1 : 0); --layer) {
-    GLuint first = 0;
-    for (size_t kind = 0; kind < kTileKinds.size(); ++kind) {
-      const uint32_t count = o.cut.counts[kind];
-      if (count == 0) continue;
-      o.programs[kind].set(kOnlyLayer, layer);
-      o.programs[kind].use();
-      o.gl.DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count), first);
-      first += count;
+    for (const TileRun& run : o.cut.runs) {
+      const gl::Program& program = o.programs[run.kind];
+      program.set(kOnlyLayer, layer);
+      program.set(kPixelLevel, run.pixel_level);
+      program.use();
+      o.gl.DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(run.count),
+                                           run.first);
     }
   }
 }

@@ -1,6 +1,8 @@
 #include "rain/beyond_tiles.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
 namespace rg::rain {
 namespace {
@@ -161,15 +163,35 @@ void Tiler::cut(const glm::ivec4& viewport_px, const shared::RainBeyond& beyond,
     findSlopes(beyond, std::span(shelter.planes + v.first, std::min(v.count, kRainNoPlane)));
     addTo(all_, volume);
   }
+  const float pixel_slope = 2.0f * glm::length(vec3(beyond.ray_up)) / static_cast<float>(viewport_px.w);
+  sort(beyond, pixel_slope, out);
+}
+
+// In the tile's middle, in steps of half a level. Near the axis the map shrinks to nothing.
+float Tiler::pixelLevel(const shared::RainBeyond& beyond, size_t tile, float pixel_slope) const {
+  const auto columns = static_cast<size_t>(columns_);
+  const glm::vec2 clip = (glm::vec2(tile % columns, tile / columns) + 0.5f) * step_clip_ - 1.0f;
+  const vec3 ray = vec3(beyond.ray_middle) + clip.x * vec3(beyond.ray_right) + clip.y * vec3(beyond.ray_up);
+  const float off_axis = glm::length(glm::cross(ray, vec3(beyond.axis)));  // times the ray's length
+  return 0.5f * std::round(2.0f * std::log2(pixel_slope / std::max(off_axis, 0.02f * glm::length(ray))));
+}
+
+void Tiler::sort(const shared::RainBeyond& beyond, float pixel_slope, Tiles& out) {
+  placed_.clear();
+  for (size_t i = 0; i < all_.size(); ++i) {
+    const auto kind =
+        static_cast<size_t>(std::ranges::lower_bound(kTileKinds, counts_[i]) - kTileKinds.begin());
+    placed_.push_back({kind, i, pixelLevel(beyond, i, pixel_slope)});
+  }
+  std::ranges::sort(placed_, {}, [](const Placed& p) { return std::tuple(p.kind, p.pixel_level, p.tile); });
   out.tiles.clear();
-  out.counts.fill(0);
-  for (size_t kind = 0; kind < kTileKinds.size(); ++kind) {
-    const uint32_t least = kind == 0 ? 0 : kTileKinds[kind - 1] + 1;
-    for (size_t i = 0; i < size; ++i) {
-      if (counts_[i] < least || counts_[i] > kTileKinds[kind]) continue;
-      out.tiles.push_back(all_[i]);
-      ++out.counts[kind];
-    }
+  out.runs.clear();
+  for (const Placed& p : placed_) {
+    const bool goes_on =
+        !out.runs.empty() && out.runs.back().kind == p.kind && out.runs.back().pixel_level == p.pixel_level;
+    if (!goes_on) out.runs.push_back({p.kind, p.pixel_level, static_cast<uint32_t>(out.tiles.size()), 0});
+    ++out.runs.back().count;
+    out.tiles.push_back(all_[p.tile]);
   }
 }
 

@@ -14,12 +14,19 @@
 
 namespace rg::rain {
 
-// Tiles that know at most so many volumes are drawn together: most know few.
-inline constexpr std::array<uint32_t, 3> kTileKinds{1, 3, shared::kRainTileVolumes};
+// Tiles that know at most so many volumes are drawn by one program: most know few.
+inline constexpr std::array<uint32_t, 5> kTileKinds{1, 2, 3, 5, shared::kRainTileVolumes};
+
+// Tiles drawn together: of one kind, and alike in how large a pixel is on the pattern's map.
+struct TileRun {
+  size_t kind = 0;
+  float pixel_level = 0.0f;  // log2 of a pixel there, radians
+  uint32_t first = 0, count = 0;
+};
 
 struct Tiles {
-  std::vector<shared::RainTile> tiles;               // by kind
-  std::array<uint32_t, kTileKinds.size()> counts{};  // of each kind
+  std::vector<shared::RainTile> tiles;
+  std::vector<TileRun> runs;  // all of them, in order
 };
 
 // Covers a viewport. `beyond` has the view's rays; `shelter` the volumes, nearest first. Where a tile sees
@@ -48,6 +55,8 @@ class Tiler {
   std::optional<glm::uvec2> wordsOfAll(uint32_t volume) const;
   glm::uvec2 wordsOf(uint32_t volume, int column, int row) const;
   void addTo(std::vector<shared::RainTile>& tiles, uint32_t volume);
+  float pixelLevel(const shared::RainBeyond& beyond, size_t tile, float pixel_slope) const;
+  void sort(const shared::RainBeyond& beyond, float pixel_slope, Tiles& out);
 
   int columns_ = 0, rows_ = 0;
   glm::vec2 step_clip_{0.0f};
@@ -55,6 +64,11 @@ class Tiler {
   std::vector<Bound> bounds_;     // of it, at all corners
   std::vector<uint32_t> counts_;  // of volumes, by tile
   std::vector<shared::RainTile> all_;
+  struct Placed {
+    size_t kind, tile;
+    float pixel_level;
+  };
+  std::vector<Placed> placed_;
 };
 
 }  // namespace rg::rain

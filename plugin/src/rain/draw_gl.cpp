@@ -118,7 +118,6 @@ void Canvas::begin(const RainDraw& draw) {
   setView(draw, look);
   setLight(draw.lighting, look);
   look.lamp_count = setLamps(draw.lighting.lamps, coneOf(*draw.view).eye_m, look);
-  look.soft_depth = readsDepth(draw.target) ? 1 : 0;
   look.colour_behind = draw.target.color_texture != 0 ? 1 : 0;
   look.environment = levelsOfCube(gl_, draw.lighting.environment_cube);
   look_.write(0, &look, sizeof look);

@@ -6,6 +6,7 @@
 
 #include "gl/objects.h"
 #include "gl/program.h"
+#include "rain/standing.h"
 #include "shared/rain_drawn.glsl"
 
 namespace rg::rain {
@@ -33,6 +34,25 @@ std::vector<uint32_t> rectangles() {
   return indices;
 }
 
+// How streaks are worked out and drawn, with flakes and stones among them or without.
+struct Programs {
+  Programs(const GladGLContext& gl, bool solids)
+      : prepare(gl, {"rain/streak.comp"}, defines(solids, false)),
+        tested(gl, {"rain/streak.vert", "rain/streak.frag"}, defines(solids, false)),
+        soft(gl, {"rain/streak.vert", "rain/streak.frag"}, defines(solids, true)) {}
+  static std::vector<std::string> defines(bool solids, bool soft_depth) {
+    std::vector<std::string> result;
+    if (solids) result.emplace_back("SOLIDS");
+    if (soft_depth) result.emplace_back("SOFT_DEPTH");
+    return result;
+  }
+  void forget() {
+    for (gl::Program* program : {&prepare, &tested, &soft}) program->forget();
+  }
+
+  gl::Program prepare, tested, soft;  // to a depth buffer that is tested, or read
+};
+
 // Corners of the streaks of so many slots, and one that the very last reads in vain.
 size_t cornersOf(uint32_t slots) { return size_t{4} * groupsOf(slots) * shared::kRainDrawnGroup + 1; }
 
@@ -41,11 +61,13 @@ size_t cornersOf(uint32_t slots) { return size_t{4} * groupsOf(slots) * shared::
 struct RainRenderer::Objects {
   Objects(const gl::Context& context, uint32_t capacity_drops);
   void send(std::span<const uint32_t> slots, std::span<const RainDrop> records);
-  void drawStreaks(uint32_t slot_end);
+  void countSolids(std::span<const uint32_t> slots, std::span<const RainDrop> records);
+  void drawStreaks(uint32_t slot_end, bool soft_depth);
 
   const GladGLContext& gl;
   uint32_t capacity;
-  gl::Program prepare, streak, scatter;
+  Programs rain, all;
+  gl::Program scatter;
   gl::Buffer records, slots, fresh, classes, shelter, drawn, commands, corners;
   gl::VertexArray vertices;
   Canvas canvas;
@@ -53,13 +75,15 @@ struct RainRenderer::Objects {
   bool drawable = false;
   std::unique_ptr<StreakSetup> setup = std::make_unique<StreakSetup>();
   std::vector<uint32_t> last_write;  // by slot: which of an upload's records is the last for it
+  std::vector<bool> solid;           // by slot: whether its record is a flake's or a stone's
+  size_t solids = 0;
 };
 
 RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_drops)
     : gl(context.gl),
       capacity(capacity_drops),
-      prepare(gl, {"rain/streak.comp"}),
-      streak(gl, {"rain/streak.vert", "rain/streak.frag"}),
+      rain(gl, false),
+      all(gl, true),
       scatter(gl, {"rain/scatter.comp"}),
       records(gl, size_t{capacity} * sizeof(RainDrop)),
       slots(gl, kBatch * sizeof(uint32_t)),
@@ -71,7 +95,8 @@ RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_dro
       corners(gl, std::span<const uint32_t>(rectangles())),
       vertices(gl),
       canvas(gl),
-      last_write(capacity) {
+      last_write(capacity),
+      solid(capacity) {
   records.zero();
   vertices.bindIndices(corners.name());
   vertices.bindBuffer(0, drawn.name(), 0, sizeof(shared::RainCorner));
@@ -95,17 +120,30 @@ void RainRenderer::Objects::send(std::span<const uint32_t> to, std::span<const R
                    GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void RainRenderer::Objects::drawStreaks(uint32_t slot_end) {
+// A slot whose particle is gone counts until it is written anew.
+void RainRenderer::Objects::countSolids(std::span<const uint32_t> to, std::span<const RainDrop> drops) {
+  for (size_t i = 0; i < to.size(); ++i) {
+    const uint32_t kind = shared::rainClassOf(drops[i]);
+    const bool is_solid =
+        drops[i].diameter_m > 0.0f && classLattices()[kind].drops.hydrometeor != Hydrometeor::kRain;
+    if (is_solid == solid[to[i]]) continue;
+    solid[to[i]] = is_solid;
+    solids = is_solid ? solids + 1 : solids - 1;
+  }
+}
+
+void RainRenderer::Objects::drawStreaks(uint32_t slot_end, bool soft_depth) {
+  const Programs& programs = solids > 0 ? all : rain;
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, classes.name());
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 1, shelter.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, records.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, drawn.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, commands.name());
-  prepare.use();
-  prepare.set(0, slot_end);
+  programs.prepare.use();
+  programs.prepare.set(0, slot_end);
   gl.DispatchCompute(groupsOf(slot_end), 1, 1);
   gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-  streak.use();
+  (soft_depth ? programs.soft : programs.tested).use();
   gl.BindVertexArray(vertices.name());
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
   gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
@@ -119,7 +157,11 @@ RainRenderer::~RainRenderer() = default;
 
 void RainRenderer::upload(Upload& upload) {
   Objects& o = *objects_;
-  if (upload.whole) o.records.zero();
+  if (upload.whole) {
+    o.records.zero();
+    o.solid.assign(o.capacity, false);
+    o.solids = 0;
+  }
   // Several ticks may have written a slot; shader invocations come in no order, so only the last goes out.
   const auto count = static_cast<uint32_t>(upload.slots.size());
   for (uint32_t i = 0; i < count; ++i) o.last_write[upload.slots[i]] = i;
@@ -129,6 +171,7 @@ void RainRenderer::upload(Upload& upload) {
     upload.slots[kept] = upload.slots[i];
     upload.records[kept++] = upload.records[i];
   }
+  o.countSolids(std::span(upload.slots).first(kept), std::span(upload.records).first(kept));
   for (uint32_t first = 0; first < kept; first += kBatch) {
     const uint32_t size = std::min(kBatch, kept - first);
     o.send(std::span(upload.slots).subspan(first, size), std::span(upload.records).subspan(first, size));
@@ -148,13 +191,13 @@ void RainRenderer::draw(const RainDraw& draw) {
   o.classes.write(0, &block, sizeof block);
   o.shelter.write(0, &o.setup->shelter, sizeof o.setup->shelter);
   o.canvas.begin(draw);
-  o.drawStreaks(o.picture.slot_end);
+  o.drawStreaks(o.picture.slot_end, Canvas::readsDepth(draw.target));
 }
 
 void RainRenderer::forget() {
   Objects& o = *objects_;
-  o.prepare.forget();
-  o.streak.forget();
+  o.rain.forget();
+  o.all.forget();
   o.scatter.forget();
   for (gl::Buffer* buffer :
        {&o.records, &o.slots, &o.fresh, &o.classes, &o.shelter, &o.drawn, &o.commands, &o.corners})
