@@ -56,7 +56,7 @@ struct TermsTested {
   std::vector<const char*> terms{};
 };
 const std::map<std::string, TermsTested> kTermsTested = {
-    {"downpour", {12.0, {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml"}}},
+    {"downpour", {6.0, {"caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml"}}},
     {"drying", {20.0, {"evaporated_ml"}}}};
 
 TermsTested termsTestedBy(const std::string& scenario) {
