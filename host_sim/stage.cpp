@@ -10,7 +10,10 @@
 namespace host {
 namespace {
 
-constexpr double kBrakeLights_mps2 = -0.7;  // coasting does not light them
+// A car's displays follow the light its driver is used to, down to a hundredth of what they can (chosen by
+// eye).
+constexpr double kDisplayGain = 3.0, kDimmestDisplay = 0.01;  // the former per 1000 cd/m^2
+constexpr double kBrakeLights_mps2 = -0.7;                    // coasting does not light them
 constexpr float kOpenPlace = 0.9F;  // a place that sees so much of the sky is lit as the open field is
 
 bool hasModels(const std::filesystem::path& folder) {
@@ -76,8 +79,7 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
     road_.shelters.clear();
   }
   renderer_ = std::make_unique<Renderer>(context);
-  if (road_scene_)
-    road_instance_ = renderer_->addInstance(renderer_->addScene(*road_scene_, SceneFrame::Road));
+  if (road_scene_) addRoad();
   if (car_scene_) {
     car_instance_ = renderer_->addInstance(renderer_->addScene(*car_scene_, SceneFrame::Car));
     poses_ = car_scene_->restPoses();
@@ -99,6 +101,15 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   }
   simulation_ = std::make_unique<Simulation>(scenario, car_, road_, *plugin_, options.size_px);
   simulation_->adapting_luminance = [this](glm::dvec3 eye_m) { return renderer_->adaptingLuminance(eye_m); };
+}
+
+void Stage::addRoad() {
+  road_instance_ = renderer_->addInstance(renderer_->addScene(*road_scene_, SceneFrame::Road));
+  Sky sky;
+  sky.to_sun = toSun();
+  Placement placement;
+  placement.lamp_levels[static_cast<size_t>(LightRole::Street)] = streetLampGain(sky);
+  renderer_->place(*road_instance_, placement);
 }
 
 void Stage::update(int64_t time_ns) {
@@ -129,10 +140,14 @@ Sky Stage::sky(int64_t time_ns) const {
   sky.visibility_m = w.visibility_m;
   sky.wetness = simulation_->wetness();
   sky.time_s = static_cast<double>(time_ns) * 1e-9;
+  sky.to_sun = toSun();
+  return sky;
+}
+
+glm::vec3 Stage::toSun() const {
   const double up = glm::radians(scenario_.sun_elevation_deg),
                round = glm::radians(scenario_.sun_azimuth_deg);
-  sky.to_sun = {std::cos(up) * std::cos(round), std::cos(up) * std::sin(round), std::sin(up)};
-  return sky;
+  return {std::cos(up) * std::cos(round), std::cos(up) * std::sin(round), std::sin(up)};
 }
 
 void Stage::pose(int64_t time_ns) {
@@ -162,6 +177,8 @@ void Stage::pose(int64_t time_ns) {
   placement.lamp_levels[static_cast<size_t>(LightRole::Tail)] = scenario_.headlights ? 1.0F : 0.0F;
   placement.lamp_levels[static_cast<size_t>(LightRole::Brake)] =
       car.acceleration_mps2 < kBrakeLights_mps2 ? 1.0F : 0.0F;
+  placement.display_level =
+      static_cast<float>(std::clamp(kDisplayGain * simulation_->adaptedLuminance(), kDimmestDisplay, 1.0));
   renderer_->place(*car_instance_, placement);
 }
 

@@ -52,6 +52,8 @@ class Stage {
  private:
   void pose(int64_t time_ns);
   Sky sky(int64_t time_ns) const;
+  glm::vec3 toSun() const;
+  void addRoad();
 
   const Scenario& scenario_;
   Context& context_;

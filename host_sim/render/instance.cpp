@@ -6,9 +6,6 @@
 namespace host {
 namespace {
 
-/// Lamps in a road's file are those of a night; beside daylight a camera that shows both sees none of them.
-/// The picture lets them shine as the eye sees them, which adapts to each part of the view by itself.
-constexpr float kStreetLampGain = 10.0F;
 constexpr float kCandelaPerUnit = 1000.0F;
 constexpr float kFaintest_klx = 0.004F;
 constexpr float kFarthest_m = 60.0F;
@@ -32,9 +29,8 @@ void Instance::place(const Placement& to) {
   }
   lamps.clear();
   for (const GpuLamp& lamp : scene->lamps) {
-    float level = lamp.role < 0 ? 1.0F : to.lamp_levels[static_cast<std::size_t>(lamp.role)];
+    const float level = lamp.role < 0 ? 1.0F : to.lamp_levels[static_cast<std::size_t>(lamp.role)];
     if (level <= 0.0F) continue;
-    if (lamp.role == static_cast<int>(LightRole::Street)) level *= kStreetLampGain;
     const glm::dmat4 world_from_lamp =
         world_from_file * glm::dmat4(nodes[static_cast<std::size_t>(lamp.node)]);
     LampNow now;

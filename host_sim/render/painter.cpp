@@ -110,7 +110,9 @@ Painter::Grids Painter::gridsOf(const DrawItem& item) const {
 void Painter::setMaterial(const Program& program, const DrawItem& item, unsigned features) const {
   const GpuMaterial& material = item.material();
   const int role = item.draw->role;
-  const float level = role < 0 ? 1.0F : item.instance->placement.lamp_levels[static_cast<std::size_t>(role)];
+  const Placement& placement = item.instance->placement;
+  const float level =
+      role < 0 ? placement.display_level : placement.lamp_levels[static_cast<std::size_t>(role)];
   const bool road = item.instance->scene->frame == SceneFrame::Road;
   program.set("u_base", material.base);
   program.set("u_surface", material.surface);

@@ -54,6 +54,8 @@ struct Placement {
   std::vector<Pose> poses;
   /// How bright lamps shine and glowing meshes glow, by LightRole; 1 = as in the file, 0 = off.
   std::array<float, 6> lamp_levels{0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F};
+  /// How bright meshes without a role glow, such as a car's displays; 1 = as in the file.
+  float display_level = 1.0F;
 };
 
 enum Parts : unsigned {

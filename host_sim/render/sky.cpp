@@ -78,4 +78,8 @@ double overcastZenith(const Sky& sky) {
   return illuminance_klx * 9.0 / (7.0 * 3.14159265358979);
 }
 
+float streetLampGain(const Sky& sky) {
+  return static_cast<float>(1.0 + 9.0 * std::cbrt(std::min(daylight(sky), 1.0)));
+}
+
 }  // namespace host

@@ -30,4 +30,9 @@ double overcastZenith(const Sky& sky);
 /// Irradiance on a plane across the sun's rays, 1000 lx, clouds and air counted: none once it has set.
 glm::vec3 sunIrradiance(const Sky& sky);
 
+/// How many times their own intensity street lamps are shown with. They are those of a night; beside daylight
+/// a camera that shows both sees none of them, but the eye adapts to each part of the view by itself: 10
+/// times by day (chosen by eye), as they are by night.
+float streetLampGain(const Sky& sky);
+
 }  // namespace host

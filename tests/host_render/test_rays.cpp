@@ -108,5 +108,39 @@ TEST(Sky, rainHidesTheSunAndDarkensTheSky) {
   EXPECT_GT(overcastZenith(drizzle), 2.0 * overcastZenith(downpour));
 }
 
+Sky withSunAt(double elevation_deg) {
+  Sky sky;
+  const auto up = static_cast<float>(elevation_deg * 3.14159265 / 180.0);
+  sky.to_sun = {std::cos(up), 0.0F, std::sin(up)};
+  return sky;
+}
+
+// Against the almanac's own figures for level ground: 3.4 lx at the end of civil twilight, 759 lx when the
+// sun is on the horizon, 129 klx when it stands overhead.
+TEST(Sky, isAsBrightAsTheSunIsHigh) {
+  const double at35 = daylight(withSunAt(90.0)) / 129e3;
+  EXPECT_NEAR(daylight(withSunAt(0.0)) / at35, 759.0, 10.0);
+  EXPECT_NEAR(daylight(withSunAt(-6.0)) / at35, 3.4, 0.2);
+  EXPECT_NEAR(daylight(withSunAt(35.0)), 1.0, 1e-4);
+  double higher = daylight(withSunAt(90.0));
+  for (double elevation_deg = 89.0; elevation_deg >= -40.0; elevation_deg -= 0.5) {
+    const double here = daylight(withSunAt(elevation_deg));
+    EXPECT_LE(here, higher * 1.03) << elevation_deg;  // ranges of the law meet within 3 %
+    higher = here;
+  }
+  EXPECT_GT(higher, 0.0);
+}
+
+TEST(Sky, hasNoSunOnceItHasSet) {
+  EXPECT_GT(sunIrradiance(withSunAt(5.0)).x, 0.0F);
+  EXPECT_LT(sunIrradiance(withSunAt(5.0)).x, sunIrradiance(withSunAt(35.0)).x);
+  EXPECT_EQ(sunIrradiance(withSunAt(-1.0)).x, 0.0F);
+}
+
+TEST(Sky, letsStreetLampsShineAsTheyAreByNight) {
+  EXPECT_NEAR(streetLampGain(withSunAt(35.0)), 10.0F, 1e-3F);
+  EXPECT_NEAR(streetLampGain(withSunAt(-20.0)), 1.0F, 0.15F);
+}
+
 }  // namespace
 }  // namespace host
