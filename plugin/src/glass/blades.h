@@ -26,6 +26,7 @@ class Blades {
     double direction = 0.0;  // of its last way; 0: it rests and carries nothing
   };
   static void move(const DropWorld& world, Drops& drops, Blade& blade, double to_rad);
+  static void meet(const DropWorld& world, Drops& drops, const Wiper& wiper, const Sweep& sweep, int slot);
   static void turn(FilmLink& film, Blade& blade);
   static void leaveOffGlass(FilmLink& film, const Blade& blade);
 

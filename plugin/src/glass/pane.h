@@ -46,8 +46,12 @@ struct WiperInfo {
   glm::dvec3 rest_direction{1.0, 0.0, 0.0};
   double arm_m = 0.5;  // pivot to the blade's middle
   double blade_m = 0.6;
-  double blade_angle_rad = 0.0;   // from the arm's direction to the blade's
+  double blade_angle_rad = 0.0;   // from the arm's direction to the blade's, at angle 0
   double residual_film_m = 1e-7;  // what a pass leaves
+  double blade_turn = 0.0;  // how far the blade turns on its arm for each radian of the arm: 0 rigid, -1 a
+                            // pantograph, whose blade keeps its direction on the glass
+  double wear = 0.0;        // 0 a new blade .. 1, see wear.h
+  double lift_m = 2e-3;     // drops that stand higher are cut: the blade goes through them at this height
 };
 
 // Drops of one size, as they fall.
