@@ -1,6 +1,7 @@
 // A pixel of the pane: the picture behind it, bent by the film's surface, blurred by droplets too small to be seen one by one.
 #include "optics/bicubic.glsl"
 #include "optics/near.glsl"
+#include "optics/ridge.glsl"
 #include "optics/surroundings.glsl"
 #include "shared/optics_drop.glsl"
 
@@ -60,6 +61,7 @@ void main() {
 #else
   vec4 water = textureLod(film, i.uv, 0.0);
 #endif
+  addRidges(i.from_eye + frame.eye_in_vehicle.xyz, water);
   vec3 normal = normalize(i.normal);
   float to_glass_m = length(i.from_eye);
   vec3 view = i.from_eye / to_glass_m;

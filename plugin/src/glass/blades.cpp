@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tick.h"
+
 namespace rg::glass {
 namespace {
 constexpr double kMostTurn = 2.0;
@@ -49,6 +51,9 @@ void Blades::stroke(const DropWorld& world, Drops& drops, const WiperStroke& str
   if (it == blades_.end()) return;
   Blade& blade = it->second;
   blade.angle_rad = stroke.from_rad;
+  // Where it turns round within the tick it is shown standing.
+  blade.speed_radps =
+      stroke.extreme_rad == stroke.to_rad ? (stroke.to_rad - stroke.from_rad) / kTickSeconds : 0.0;
   move(world, drops, blade, stroke.extreme_rad);
   move(world, drops, blade, stroke.to_rad);
   if (stroke.from_rad == stroke.to_rad && stroke.extreme_rad == stroke.to_rad) {
@@ -56,6 +61,16 @@ void Blades::stroke(const DropWorld& world, Drops& drops, const WiperStroke& str
   } else {
     leaveOffGlass(world.film, blade);
   }
+}
+
+std::vector<MovingBlade> Blades::moving() const {
+  std::vector<MovingBlade> out;
+  for (const auto& [id, blade] : blades_) {
+    if (blade.direction == 0.0) continue;
+    out.push_back({blade.wiper->info(), blade.angle_rad, blade.speed_radps, blade.direction,
+                   blade.wiper->slot() * shared::kBladeSegments});
+  }
+  return out;
 }
 
 // One way without reversal.

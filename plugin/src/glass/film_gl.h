@@ -32,6 +32,7 @@ class FilmGl {
   std::vector<FilmReport> collect(bool wait);
 
   const gl::Texture2D& film() const { return film_; }
+  const gl::Buffer& ridges() const { return ridges_; }
   std::vector<int32_t> readFilm() const;
   std::vector<int32_t> readRidges() const;
   void abandon();

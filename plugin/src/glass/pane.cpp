@@ -257,6 +257,8 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
   if (state_->snapshot) return state_->snapshot;
   auto made = std::make_shared<PaneSnapshot>();
   made->tick = state_->now.index;
+  made->blades = state_->blades.moving();
+  made->advancing_rad = state_->surface.advancing_rad;
   made->drops.reserve(state_->drops.count());
   for (const Drop& drop : state_->drops.all()) {
     if (drop.volume_pl == 0) continue;

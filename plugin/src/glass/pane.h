@@ -111,10 +111,20 @@ struct PaneStats {
       0;  // ticks not run because the GPU's part was not called for more than four seconds
 };
 
+// A blade on its way with a ridge before it.
+struct MovingBlade {
+  WiperInfo wiper;
+  double angle_rad = 0.0, speed_radps = 0.0;
+  double direction = 1.0;  // +1: to greater angles
+  int first_piece = 0;     // of the ridges
+};
+
 // Immutable; made after each submit that ran a tick, handed to the GL thread.
 struct PaneSnapshot {
   int64_t tick = 0;
   std::vector<shared::GlassDropRecord> drops;
+  std::vector<MovingBlade> blades;
+  double advancing_rad = 0.0;  // contact angle of what is pushed
 };
 
 // [thread: all functions may be called from any thread; the pane locks itself]

@@ -19,6 +19,10 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 
 glm::dvec2 direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
+double bladeDirection_rad(const WiperInfo& info, double angle_rad) {
+  return info.blade_angle_rad + (1.0 + info.blade_turn) * angle_rad;
+}
+
 // Where f changes its sign between a and b: halving until doubles end.
 template <typename F>
 double root(const F& f, double a, double b) {
@@ -87,11 +91,12 @@ glm::dvec2 Wiper::inPlane(const glm::dvec3& vehicle_m) const {
   return {glm::dot(d, info_.rest_direction), glm::dot(d, side_)};
 }
 
-BladePose Wiper::poseAt(double angle_rad) const {
-  const auto inVehicle = [this](const glm::dvec2& v) { return v.x * info_.rest_direction + v.y * side_; };
-  const glm::dvec2 along = direction(direction_rad(angle_rad));
+BladePose bladePose(const WiperInfo& info, double angle_rad) {
+  const glm::dvec3 side = glm::cross(info.axis, info.rest_direction);
+  const auto inVehicle = [&](const glm::dvec2& v) { return v.x * info.rest_direction + v.y * side; };
+  const glm::dvec2 along = direction(bladeDirection_rad(info, angle_rad));
   const double with_arm = glm::dot(along, direction(angle_rad)) < 0.0 ? -1.0 : 1.0;
-  return {info_.pivot_m + inVehicle(info_.arm_m * direction(angle_rad)), inVehicle(along),
+  return {info.pivot_m + inVehicle(info.arm_m * direction(angle_rad)), inVehicle(along),
           inVehicle(with_arm * glm::dvec2(-along.y, along.x))};
 }
 
@@ -136,7 +141,8 @@ Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m, double beyond_end_m) c
   const double reach = info_.arm_m + 0.5 * info_.blade_m + beyond_end_m;
   if (glm::dot(place, place) > reach * reach) return out;
   for (const double angle : anglesOf(place)) {
-    const double along = glm::dot(place - info_.arm_m * direction(angle), direction(direction_rad(angle)));
+    const double along =
+        glm::dot(place - info_.arm_m * direction(angle), direction(bladeDirection_rad(info_, angle)));
     if (std::abs(along) > 0.5 * info_.blade_m + beyond_end_m || out.count == Crossings::kMost) continue;
     out.angle_rad[out.count] = angle;
     out.along_m[out.count] = along;
@@ -169,7 +175,7 @@ bool Wiper::mayCross(int texel, const Sweep& sweep, double radius_m) const {
                        (info_.arm_m + std::abs(1.0 + info_.blade_turn) * 0.5 * info_.blade_m);
   const double near_m = way_m + radius_m + 2.0 * texel_m_;  // from the texel's middle to anywhere in it
   const glm::dvec2 d = glm::dvec2(in_plane_m_[static_cast<size_t>(texel)]) - info_.arm_m * direction(angle);
-  const glm::dvec2 along = direction(direction_rad(angle));
+  const glm::dvec2 along = direction(bladeDirection_rad(info_, angle));
   return std::abs(cross(along, d)) <= near_m && std::abs(glm::dot(along, d)) <= 0.5 * info_.blade_m + near_m;
 }
 

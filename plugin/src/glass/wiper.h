@@ -38,6 +38,7 @@ struct BladePose {
   glm::dvec3 along{0.0};   // unit, from the pivot's side to the tip
   glm::dvec3 across{0.0};  // unit, to greater angles
 };
+BladePose bladePose(const WiperInfo& info, double angle_rad);
 
 class Wiper {
  public:
@@ -47,7 +48,7 @@ class Wiper {
   const WiperInfo& info() const { return info_; }
   int slot() const { return slot_; }
   Crossings crossingsAt(const glm::dvec3& vehicle_m, double beyond_end_m = 0.0) const;
-  BladePose poseAt(double angle_rad) const;
+  BladePose poseAt(double angle_rad) const { return bladePose(info_, angle_rad); }
 
   // All texels the blade can cross: first crossings, then second ones and so on, each sorted by piece, then
   // angle. Shared with the GPU's copy of it.
@@ -71,9 +72,6 @@ class Wiper {
   glm::dvec2 inPlane(const glm::dvec3& vehicle_m) const;
   // Angles at which the blade's line, endless, passes a place of its plane.
   std::vector<double> anglesOf(const glm::dvec2& place_m) const;
-  double direction_rad(double angle_rad) const {
-    return info_.blade_angle_rad + (1.0 + info_.blade_turn) * angle_rad;
-  }
 
   WiperInfo info_;
   int slot_;
