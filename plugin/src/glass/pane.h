@@ -71,6 +71,15 @@ struct WiperStroke {
   double to_rad = 0.0;
 };
 
+class Jet;
+
+// What a jet brings in a tick.
+struct Washing {
+  std::shared_ptr<const Jet> jet;
+  int64_t volume_pl = 0;
+};
+
+inline constexpr uint32_t kMostWashings = 8;
 inline constexpr int kRegionsAcross = 8;  // the pane is cut in 8 x 8 regions (of its grid) for shelter
 inline constexpr int kRegions = kRegionsAcross * kRegionsAcross;
 inline constexpr int kMaxSizeClasses = 64;
@@ -90,6 +99,8 @@ struct PaneTick {
       wet_share{};  // 0 sheltered .. 1 open to the rain, per region (see PaneMap::regionCentre)
   uint32_t wiper_count = 0;
   std::array<WiperStroke, shared::kMaxGlassWipers> wipers{};
+  uint32_t washing_count = 0;
+  std::array<Washing, kMostWashings> washings{};
 };
 
 struct PlacedDrop {
