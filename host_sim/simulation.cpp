@@ -120,8 +120,11 @@ void Simulation::tickWipers() {
   if (std::ranges::any_of(scenario_.washes, [&](double at) { return at > before_s && at <= t; })) wash();
   const int64_t begin_ns = hostTickNs(tick_ - 1);
   for (const WiperKnotShare& knot : motor_.tick()) {
-    const int64_t at_ns =
-        std::min(begin_ns + static_cast<int64_t>(knot.seconds_into_tick * 1e9), hostTickNs(tick_));
+    // A tick is no whole number of nanoseconds: its end is told to the last one, so that nothing is to be
+    // guessed beyond it.
+    const int64_t at_ns = knot.seconds_into_tick < kHostTickSeconds
+                              ? begin_ns + static_cast<int64_t>(knot.seconds_into_tick * 1e9)
+                              : hostTickNs(tick_);
     for (size_t i = 0; i < car_.wipers.size(); ++i) {
       knots_.push_back({at_ns, static_cast<uint32_t>(i + 1), 0,
                         knot.share * static_cast<double>(car_.wipers[i].sweep_rad)});
