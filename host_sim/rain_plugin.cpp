@@ -19,6 +19,9 @@ std::filesystem::path besideThisProgram() {
   return program.parent_path() / "librainglass.so";
 }
 
+// A washer as cars have: 15 mL from each nozzle in a second, from a hand's breadth off the glass, in a fan.
+constexpr double kNozzleOff_m = 0.08, kJetFan_rad = 0.35, kJet_m3 = 15e-6;
+
 void copyVector(const glm::dvec3& from, double to[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
@@ -122,7 +125,29 @@ void RainPlugin::addCar(const CarView& car) {
     info.arm_m = static_cast<double>(w.arm_m);
     info.blade_m = static_cast<double>(w.blade_m);
     info.blade_angle_rad = static_cast<double>(w.blade_angle_rad);
+    info.blade_turn = static_cast<double>(w.blade_turn);
+    info.wear = static_cast<double>(w.wear);
     check(api_->set_wiper(instance_, static_cast<uint32_t>(i + 1), &info), "set_wiper");
+  }
+}
+
+// A nozzle beside each pivot, off the glass, aimed at the middle of what the wiper sweeps.
+void RainPlugin::wash(const CarView& car, int64_t time_ns) {
+  for (const WiperView& w : car.wipers) {
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(w.axis)), rest(w.rest_direction);
+    const double half_rad = 0.5 * static_cast<double>(w.sweep_rad);
+    const glm::dvec3 middle = std::cos(half_rad) * rest + std::sin(half_rad) * glm::cross(axis, rest);
+    const glm::dvec3 nozzle = glm::dvec3(w.pivot_m) + kNozzleOff_m * axis;
+    const glm::dvec3 aim = glm::dvec3(w.pivot_m) + static_cast<double>(w.arm_m) * middle;
+    rg_wash_info info;
+    api_->default_wash_info(&info);
+    info.pane = static_cast<uint32_t>(w.pane_index + 1);
+    info.time_ns = time_ns;
+    copyVector(nozzle, info.nozzle_m);
+    copyVector(glm::normalize(aim - nozzle), info.direction);
+    info.fan_rad = kJetFan_rad;
+    info.volume_m3 = kJet_m3;
+    check(api_->wash(instance_, &info), "wash");
   }
 }
 
@@ -237,13 +262,15 @@ rg_rain_stats RainPlugin::rainStats() {
 
 std::vector<std::pair<std::string, rg_pane_stats>> RainPlugin::paneStats() {
   std::vector<std::pair<std::string, rg_pane_stats>> all;
-  for (size_t i = 0; i < panes_.size(); ++i) {
-    rg_pane_stats stats{};
-    stats.struct_size = sizeof stats;
-    check(api_->get_pane_stats(instance_, static_cast<uint32_t>(i + 1), &stats), "get_pane_stats");
-    all.emplace_back(panes_[i], stats);
-  }
+  for (size_t i = 0; i < panes_.size(); ++i) all.emplace_back(panes_[i], paneStats(static_cast<int>(i)));
   return all;
+}
+
+rg_pane_stats RainPlugin::paneStats(int pane_index) {
+  rg_pane_stats stats{};
+  stats.struct_size = sizeof stats;
+  check(api_->get_pane_stats(instance_, static_cast<uint32_t>(pane_index + 1), &stats), "get_pane_stats");
+  return stats;
 }
 
 std::vector<rg_stage_stats> RainPlugin::stages() {

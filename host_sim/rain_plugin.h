@@ -67,6 +67,9 @@ class RainPlugin {
 
   rg_rain_stats rainStats();
   std::vector<std::pair<std::string, rg_pane_stats>> paneStats();
+  rg_pane_stats paneStats(int pane_index);
+  // The jets of all wipers' panes, from that time on.
+  void wash(const CarView& car, int64_t time_ns);
   std::vector<rg_stage_stats> stages();
   std::vector<rg_parameter> parameters();
   bool gpuTimer();

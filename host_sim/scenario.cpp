@@ -144,6 +144,18 @@ void readWipers(Reader& top, Scenario& s) {
     for (const auto& [at, value] : top.pairs("wipers", *node)) s.wipers.push_back({at, mode(*value)});
 }
 
+void readWashes(Reader& top, Scenario& s) {
+  const toml::node* node = top.find("washes");
+  if (node == nullptr) return;
+  if (!node->is_array()) top.refuse("washes", "must be a list of seconds");
+  for (const toml::node& at : *node->as_array()) {
+    const auto second = at.value<double>();
+    if (!second || !(*second >= 0.0) || *second > 36000.0)
+      top.refuse("washes", "must be seconds, 0 .. 36000");
+    s.washes.push_back(*second);
+  }
+}
+
 void readParameters(Reader& top, Scenario& s) {
   const Reader section = top.section("plugin");
   if (section.table() == nullptr) return;
@@ -236,6 +248,8 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   readDrive(top.section("drive"), s.plan);
   readWeather(top.section("weather"), s);
   readWipers(top, s);
+  s.wiper_pause_s = top.number("wiper_pause_s", kIntermittentPause_s, 0.5, 60.0);
+  readWashes(top, s);
   readParameters(top, s);
   top.finish();
   return s;

@@ -16,6 +16,7 @@ constexpr int64_t kAdaptationTicks = 12;  // ten times a second
 constexpr double kAdaptedShare = 0.6;
 constexpr double kRoadDries_mm_per_s = 0.2 / 3600.0;  // on a mild day with traffic (unsourced)
 constexpr double kMostOnRoad_mm = 1.0;                // the rest runs off
+constexpr int64_t kSensorTicks = 30;                  // four times a second
 constexpr double kChaseBehind_m = 6.5, kChaseUp_m = 2.3;
 // Just before the nose of a car of usual length (4.3 m), at a seated driver's height: the world without
 // glass.
@@ -83,16 +84,7 @@ void Simulation::tick() {
     else
       driver_.tick();
   }
-  motor_.setMode(overrides.wipers.value_or(wiperModeAt(scenario_, std::max(0.0, t))));
-  const int64_t begin_ns = hostTickNs(tick_ - 1);
-  for (const WiperKnotShare& knot : motor_.tick()) {
-    const int64_t at_ns =
-        std::min(begin_ns + static_cast<int64_t>(knot.seconds_into_tick * 1e9), hostTickNs(tick_));
-    for (size_t i = 0; i < car_.wipers.size(); ++i) {
-      knots_.push_back({at_ns, static_cast<uint32_t>(i + 1), 0,
-                        knot.share * static_cast<double>(car_.wipers[i].sweep_rad)});
-    }
-  }
+  tickWipers();
   const double rain_mm = weather().rain_mm_h / 3600.0 * kHostTickSeconds;
   water_on_road_mm_ =
       std::clamp(water_on_road_mm_ + rain_mm - kRoadDries_mm_per_s * kHostTickSeconds, 0.0, kMostOnRoad_mm);
@@ -107,6 +99,42 @@ void Simulation::tick() {
     adapted_ = true;
   }
   tell();
+}
+
+// What the sensor knows does not depend on how time is cut: the plugin is brought to a time of its own for
+// it.
+void Simulation::tickWipers() {
+  const double t = timeS();
+  wiper_mode_ = overrides.wipers.value_or(wiperModeAt(scenario_, std::max(0.0, t)));
+  if (wiper_mode_ != WiperMode::automatic) {
+    motor_.setMode(wiper_mode_, overrides.wiper_pause_s.value_or(scenario_.wiper_pause_s));
+  } else {
+    if (tick_ % kSensorTicks == 0 && !car_.wipers.empty()) {
+      plugin_.update(hostTickNs(tick_ - 1));
+      const rg_pane_stats seen = plugin_.paneStats(car_.wipers.front().pane_index);
+      sensor_.sense(seen.caught_ml * 1e-6, seen.area_m2, t);
+    }
+    motor_.setMode(sensor_.mode(), sensor_.pause_s());
+  }
+  const double before_s = t - kHostTickSeconds;
+  if (std::ranges::any_of(scenario_.washes, [&](double at) { return at > before_s && at <= t; })) wash();
+  const int64_t begin_ns = hostTickNs(tick_ - 1);
+  for (const WiperKnotShare& knot : motor_.tick()) {
+    // A tick is no whole number of nanoseconds: its end is told to the last one, so that nothing is to be
+    // guessed beyond it.
+    const int64_t at_ns = knot.seconds_into_tick < kHostTickSeconds
+                              ? begin_ns + static_cast<int64_t>(knot.seconds_into_tick * 1e9)
+                              : hostTickNs(tick_);
+    for (size_t i = 0; i < car_.wipers.size(); ++i) {
+      knots_.push_back({at_ns, static_cast<uint32_t>(i + 1), 0,
+                        knot.share * static_cast<double>(car_.wipers[i].sweep_rad)});
+    }
+  }
+}
+
+void Simulation::wash() {
+  plugin_.wash(car_, hostTickNs(std::max<int64_t>(tick_, 0)));
+  motor_.wipe(kWashCycles);
 }
 
 void Simulation::tell() {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "drive/driver.h"
+#include "drive/rain_sensor.h"
 #include "drive/route.h"
 #include "drive/wiper_control.h"
 #include "rain_plugin.h"
@@ -44,6 +45,7 @@ struct Overrides {
   std::optional<double> rain_mm_h, snow_mm_h, hail_mm_h;
   std::optional<glm::dvec3> wind_mps;
   std::optional<WiperMode> wipers;
+  std::optional<double> wiper_pause_s;
   std::optional<Controls> controls;
 };
 
@@ -72,13 +74,16 @@ class Simulation {
   double wiperShare() const { return motor_.share(); }
   double wetness() const { return 1.0 - std::exp(-water_on_road_mm_ / 0.15); }
   double adaptedLuminance() const { return std::exp(log_luminance_); }
-  WiperMode wiperMode() const { return motor_.mode(); }
+  WiperMode wiperMode() const { return wiper_mode_; }
+  // The washer sprays every wiped pane, and the wipers go three times.
+  void wash();
   void resize(glm::ivec2 size_px) { size_px_ = size_px; }
   Driver& driver() { return driver_; }
   double timeS() const;
 
  private:
   void tick();
+  void tickWipers();
   void tell();
   Eye eyeOf(const CarState& car) const;
   rg_view viewOf(const CarState& car) const;
@@ -90,6 +95,8 @@ class Simulation {
   Route route_;
   Driver driver_;
   WiperMotor motor_;
+  WiperMode wiper_mode_ = WiperMode::off;
+  RainSensor sensor_;
   int64_t prewarm_ns_ = 0;
   int64_t tick_ = -1;  // of the plugin's clock; -1: not begun
   std::vector<rg_wiper_knot> knots_;

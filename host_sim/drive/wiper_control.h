@@ -7,16 +7,17 @@
 
 namespace host {
 
-enum class WiperMode { off, intermittent, slow, fast };
+enum class WiperMode { off, intermittent, slow, fast, automatic };
 
-// "off", "intermittent", "1", "2"; throws std::invalid_argument that names others.
+// "off", "intermittent", "1", "2", "auto"; throws std::invalid_argument that names others.
 WiperMode wiperModeFrom(std::string_view text);
 const char* wiperModeName(WiperMode mode);
 
 // Cycles a minute. FMVSS 104 S4.1.1: the fast one 45 or more, the slow one 20 or more, 15 or more apart.
 inline constexpr double kSlowCycles_per_min = 42.0;
 inline constexpr double kFastCycles_per_min = 62.0;
-inline constexpr double kIntermittentPause_s = 4.0;
+inline constexpr double kIntermittentPause_s = 4.0;  // unless told
+inline constexpr int kWashCycles = 3;                // after a wash, as cars do
 
 // Where the blade is after a tick, as a share of the sweep: 0 at rest, 1 at the far reversal.
 struct WiperKnotShare {
@@ -26,8 +27,13 @@ struct WiperKnotShare {
 
 class WiperMotor {
  public:
-  void setMode(WiperMode mode) { wanted_ = mode; }
-  void wipeOnce() { once_ = true; }
+  // Any mode but automatic: that is for a RainSensor to choose.
+  void setMode(WiperMode mode, double intermittent_pause_s = kIntermittentPause_s) {
+    wanted_ = mode;
+    wanted_pause_s_ = intermittent_pause_s;
+  }
+  // So many cycles from now on, whatever the mode.
+  void wipe(int cycles) { owed_ = cycles; }
   WiperMode mode() const { return wanted_; }
   // Advances by the host's tick and gives the knots inside it: its end, and every reversal on the way.
   const std::vector<WiperKnotShare>& tick();
@@ -37,11 +43,12 @@ class WiperMotor {
   bool starts() const;
 
   WiperMode wanted_ = WiperMode::off;
-  bool once_ = false;
+  double wanted_pause_s_ = kIntermittentPause_s;
+  int owed_ = 0;
   bool running_ = false;
   double phase_ = 0.0;  // 0 .. 1 over a cycle
   double cycle_s_ = 1.0;
-  double pause_s_ = 0.0;
+  double paused_s_ = 1e9;  // since the last cycle
   double share_ = 0.0;
   std::vector<WiperKnotShare> knots_;
 };

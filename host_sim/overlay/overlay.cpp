@@ -100,6 +100,8 @@ void wiperChoice(Overrides& overrides) {
   ImGui::SameLine();
   choice("intermittent", WiperMode::intermittent);
   ImGui::SameLine();
+  choice("automatic", WiperMode::automatic);
+  ImGui::SameLine();
   choice("slow", WiperMode::slow);
   ImGui::SameLine();
   choice("fast", WiperMode::fast);

@@ -27,6 +27,8 @@ struct WiperMeaning {
   float blade_m = 0.0F;          ///< blade's length
   float blade_angle_rad = 0.0F;  ///< from the arm's direction to the blade's
   float sweep_rad = 0.0F;        ///< signed, about the node's +Y, rest to far reversal
+  float blade_turn = 0.0F;       ///< of the blade on its arm, for each radian of the arm; -1: a pantograph
+  float wear = 0.0F;             ///< 0 a new blade .. 1
 };
 
 struct EyeMeaning {

@@ -89,6 +89,8 @@ std::vector<WiperView> wipersOf(const Scene& scene, const glm::mat4& frame,
     wiper.blade_m = meaning.blade_m;
     wiper.blade_angle_rad = meaning.blade_angle_rad;
     wiper.sweep_rad = meaning.sweep_rad;
+    wiper.blade_turn = meaning.blade_turn;
+    wiper.wear = meaning.wear;
     wipers.push_back(std::move(wiper));
   });
   return wipers;

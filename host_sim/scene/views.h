@@ -47,6 +47,8 @@ struct WiperView {
   float blade_m = 0.0F;
   float blade_angle_rad = 0.0F;  ///< about the axis, from the arm's direction to the blade's
   float sweep_rad = 0.0F;        ///< signed, about the axis
+  float blade_turn = 0.0F;       ///< of the blade on its arm, for each radian of the arm
+  float wear = 0.0F;             ///< 0 a new blade .. 1
 };
 
 struct EyeView {

@@ -88,6 +88,12 @@ void Pilot::onKey(int key) {
     case GLFW_KEY_O:
       o.wipers = WiperMode::off;
       break;
+    case GLFW_KEY_U:
+      o.wipers = WiperMode::automatic;
+      break;
+    case GLFW_KEY_X:
+      sim_.wash();
+      break;
     case GLFW_KEY_M:
       o.wipers.reset();
       break;

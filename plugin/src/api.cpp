@@ -410,6 +410,8 @@ constexpr rg_api kApi = {
     setParameter,
     defaultRainPattern,
     setRainPattern,
+    defaultWashInfo,
+    wash,
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api_call.h"
+#include "defaults.h"
 
 namespace rg {
 namespace {
@@ -121,7 +122,9 @@ rg_result removePane(rg_instance* instance, uint32_t id) {
 rg_result setWiper(rg_instance* instance, uint32_t id, const rg_wiper_info* in) {
   return guarded(instance, [&](Frame& frame) {
     checkId(id, "wiper");
-    const rg_wiper_info info = readStruct(in, "rg_wiper_info");
+    rg_wiper_info preset;
+    defaultWiperInfo(&preset);
+    const rg_wiper_info info = readStruct(in, "rg_wiper_info", preset);
     glass::WiperInfo wiper;
     wiper.pivot_m = finiteVector(info.pivot_m, "rg_wiper_info.pivot_m");
     wiper.axis = unitVector(info.axis, "rg_wiper_info.axis");
@@ -132,6 +135,12 @@ rg_result setWiper(rg_instance* instance, uint32_t id, const rg_wiper_info* in) 
     checkRange(info.blade_m, 0.01, 5.0, "rg_wiper_info.blade_m");
     checkRange(info.blade_angle_rad, -3.2, 3.2, "rg_wiper_info.blade_angle_rad");
     checkRange(info.residual_film_m, 0.0, 1e-4, "rg_wiper_info.residual_film_m");
+    checkRange(info.blade_turn, -2.0, 2.0, "rg_wiper_info.blade_turn");
+    checkRange(info.wear, 0.0, 1.0, "rg_wiper_info.wear");
+    checkRange(info.lift_m, 1e-5, 1.0, "rg_wiper_info.lift_m");
+    wiper.blade_turn = info.blade_turn;
+    wiper.wear = info.wear;
+    wiper.lift_m = info.lift_m;
     wiper.arm_m = info.arm_m;
     wiper.blade_m = info.blade_m;
     wiper.blade_angle_rad = info.blade_angle_rad;
@@ -156,6 +165,25 @@ rg_result placeDrops(rg_instance* instance, uint32_t pane, const rg_glass_drop* 
       drops.push_back({in[i].u_m, in[i].v_m, in[i].base_radius_m, glm::radians(in[i].contact_angle_deg)});
     }
     frame.placeDrops(pane, drops);
+  });
+}
+
+rg_result wash(rg_instance* instance, const rg_wash_info* in) {
+  return guarded(instance, [&](Frame& frame) {
+    const rg_wash_info info = readStruct(in, "rg_wash_info");
+    checkTime(info.time_ns, "rg_wash_info.time_ns");
+    checkRange(info.duration_s, 0.01, 60.0, "rg_wash_info.duration_s");
+    checkRange(info.volume_m3, 0.0, 1e-3, "rg_wash_info.volume_m3");
+    checkRange(info.fan_rad, 0.01, 3.0, "rg_wash_info.fan_rad");
+    WashOrder order;
+    order.pane = info.pane;
+    order.jet.nozzle_m = finiteVector(info.nozzle_m, "rg_wash_info.nozzle_m");
+    order.jet.direction = unitVector(info.direction, "rg_wash_info.direction");
+    order.jet.fan_rad = info.fan_rad;
+    order.time_ns = info.time_ns;
+    order.duration_s = info.duration_s;
+    order.volume_m3 = info.volume_m3;
+    frame.wash(order);
   });
 }
 

@@ -76,6 +76,15 @@ void defaultWiperInfo(rg_wiper_info* out) {
   out->arm_m = 0.5;
   out->blade_m = 0.6;
   out->residual_film_m = 1e-7;
+  out->lift_m = 2e-3;
+}
+
+void defaultWashInfo(rg_wash_info* out) {
+  if (!clear(out)) return;
+  out->duration_s = 1.0;
+  out->volume_m3 = 2e-5;
+  out->direction[0] = 1.0;
+  out->fan_rad = 0.2;
 }
 
 void defaultTarget(rg_target* out) {

@@ -14,6 +14,7 @@ void defaultSample(rg_sample* out);
 void defaultVolumeInfo(rg_volume_info* out);
 void defaultPaneInfo(rg_pane_info* out);
 void defaultWiperInfo(rg_wiper_info* out);
+void defaultWashInfo(rg_wash_info* out);
 void defaultTarget(rg_target* out);
 void defaultLighting(rg_lighting* out);
 void defaultDraw(rg_draw* out);

@@ -59,7 +59,9 @@ void Frame::removeVehicle(uint32_t id) {
   bool known = !timeline_.empty() && timeline_.vehicleAt(id, timeline_.last().time_ns).has_value();
   known |= std::erase_if(volumes_, [id](const auto& v) { return v.second == id; }) > 0;
   for (const auto& [pane_id, p] : panes_) {
-    if (p.vehicle == id) removeWipersOf(pane_id);
+    if (p.vehicle != id) continue;
+    removeWipersOf(pane_id);
+    std::erase_if(washes_, [&](const WashObject& wash) { return wash.pane == pane_id; });
   }
   known |= std::erase_if(panes_, [id](const auto& p) { return p.second.vehicle == id; }) > 0;
   if (!known) refuse("there is no vehicle " + std::to_string(id), RG_ERROR_NOT_FOUND);
@@ -78,6 +80,7 @@ void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::Pan
   object.active = active;
   object.sim = std::move(sim);
   if (gl_) object.sim->attachFilm();
+  std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });  // the glass is another
   panes_[id] = std::move(object);
 }
 
@@ -99,6 +102,7 @@ void Frame::removePane(uint32_t id) {
   const std::lock_guard lock(sim_);
   pane(id);
   removeWipersOf(id);
+  std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });
   panes_.erase(id);
 }
 
@@ -123,6 +127,21 @@ void Frame::removeWiper(uint32_t id) {
 void Frame::placeDrops(uint32_t id, std::span<const glass::PlacedDrop> drops) {
   const std::lock_guard lock(sim_);
   pane(id).sim->placeDrops(drops);
+}
+
+void Frame::wash(const WashOrder& order) {
+  const std::lock_guard lock(sim_);
+  PaneObject& on = pane(order.pane);
+  if (std::ranges::count(washes_, order.pane, &WashObject::pane) >= std::ptrdiff_t{glass::kMostWashings})
+    refuse("pane " + std::to_string(order.pane) + " is being washed by " +
+           std::to_string(glass::kMostWashings) + " jets already");
+  WashObject wash;
+  wash.pane = order.pane;
+  wash.jet = std::make_shared<const glass::Jet>(order.jet, on.sim->map(), on.sim->name());
+  wash.begin_ns = started_ ? std::max(order.time_ns, tickTimeNs(next_tick_ - 1)) : order.time_ns;
+  wash.end_ns = wash.begin_ns + std::llround(order.duration_s * 1e9);
+  wash.volume_pl = std::llround(order.volume_m3 * wash.jet->share() * 1e15);
+  washes_.push_back(std::move(wash));
 }
 
 void Frame::setRainPattern(rain::RainPattern pattern) {
@@ -188,6 +207,7 @@ void Frame::reset() {
   timeline_.clear();
   field_.reset();
   beyond_.reset();
+  washes_.clear();
   for (auto& [id, p] : panes_) {
     p.sim->reset();
     p.tick = 0;

@@ -15,6 +15,7 @@
 #include "glass/look_gl.h"
 #include "glass/pane.h"
 #include "glass/pane_gl.h"
+#include "glass/washer.h"
 #include "last_error.h"
 #include "rain/beyond.h"
 #include "rain/beyond_pattern.h"
@@ -32,6 +33,23 @@ struct PaneObject {
   std::shared_ptr<glass::PaneSim> sim;
   std::array<float, glass::kRegions> wet_share{};
   int64_t tick = 0;  // the pane's own count: it has no gaps where time was left out
+};
+
+// A jet at work.
+struct WashObject {
+  uint32_t pane = 0;
+  std::shared_ptr<const glass::Jet> jet;
+  int64_t begin_ns = 0, end_ns = 0;
+  int64_t volume_pl = 0, given_pl = 0;
+};
+
+// A washer's order, read from the ABI and checked.
+struct WashOrder {
+  uint32_t pane = 0;
+  glass::JetInfo jet;
+  int64_t time_ns = 0;
+  double duration_s = 1.0;
+  double volume_m3 = 0.0;
 };
 
 struct WiperObject {
@@ -68,6 +86,7 @@ class Frame {
   void setWiper(uint32_t id, uint32_t pane, const glass::WiperInfo& info);
   void removeWiper(uint32_t id);
   void placeDrops(uint32_t pane, std::span<const glass::PlacedDrop> drops);
+  void wash(const WashOrder& order);
   void setRainPattern(rain::RainPattern pattern);  // an empty one: the project's own
 
   // Time. update returns a remark or RG_OK.
@@ -105,6 +124,7 @@ class Frame {
   void runTick(int64_t index, bool rain_only);
   void tellSettings();
   void tickGlass(const Tick& tick);
+  void tickWashes(uint32_t pane, const Tick& tick, glass::PaneTick& out);
   void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick);
   PaneObject& pane(uint32_t id);
   void removeWipersOf(uint32_t pane);
@@ -126,6 +146,7 @@ class Frame {
   uint32_t pattern_version_ = 1;
   std::map<uint32_t, PaneObject> panes_;
   std::map<uint32_t, WiperObject> wipers_;
+  std::vector<WashObject> washes_;        // in the order they were asked for
   std::map<uint32_t, uint32_t> volumes_;  // id -> vehicle
   Settings settings_;
   rain::WindProfile wind_profile_;  // as the settings say

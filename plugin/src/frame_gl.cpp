@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "glass/wiper.h"
 #include "rain/picture.h"
 
 namespace rg {
@@ -59,7 +60,16 @@ glass::LookPane lookPane(const glass::PaneDrawn& d, const Pose& vehicle, int64_t
   p.film_unit_m3 = d.film_unit_m3;
   p.drop_buffer = d.drop_buffer;
   p.drop_count = d.drop_count;
-  p.drop_age_s = static_cast<float>(static_cast<double>(time_ns - drops_ns) * 1e-9);
+  const double age_s = static_cast<double>(time_ns - drops_ns) * 1e-9;
+  p.drop_age_s = static_cast<float>(age_s);
+  p.ridge_buffer = d.ridge_buffer;
+  p.ridge_contact_rad = static_cast<float>(d.advancing_rad);
+  for (const glass::MovingBlade& blade : d.blades) {
+    const glass::BladePose pose = bladePose(blade.wiper, blade.angle_rad + blade.speed_radps * age_s);
+    p.blades.push_back({glm::vec3(pose.middle_m), glm::vec3(pose.along),
+                        glm::vec3(blade.direction * pose.across), static_cast<float>(blade.wiper.blade_m),
+                        blade.first_piece});
+  }
   return p;
 }
 

@@ -2,6 +2,7 @@
 // gravity as the pane feels them.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "frame.h"
 #include "glass/pane_map.h"
@@ -125,7 +126,22 @@ void Frame::tickGlass(const Tick& tick) {
       if (known == wipers_.end() || known->second.pane != id || t.wiper_count >= t.wipers.size()) continue;
       t.wipers[t.wiper_count++] = {w.wiper, w.from_rad, w.extreme_rad, w.to_rad};
     }
+    tickWashes(id, tick, t);
     p.sim->submit(t);
+  }
+  std::erase_if(washes_, [](const WashObject& wash) { return wash.given_pl == wash.volume_pl; });
+}
+
+// As much of each jet's water as its time has run: shares of the whole, so that all of it comes to the last
+// picolitre.
+void Frame::tickWashes(uint32_t pane, const Tick& tick, glass::PaneTick& out) {
+  for (WashObject& wash : washes_) {
+    if (wash.pane != pane || tick.time_ns <= wash.begin_ns) continue;
+    const double run =
+        static_cast<double>(tick.time_ns - wash.begin_ns) / static_cast<double>(wash.end_ns - wash.begin_ns);
+    const int64_t due_pl =
+        run >= 1.0 ? wash.volume_pl : static_cast<int64_t>(static_cast<double>(wash.volume_pl) * run);
+    out.washings[out.washing_count++] = {wash.jet, due_pl - std::exchange(wash.given_pl, due_pl)};
   }
 }
 

@@ -4,7 +4,6 @@
 layout(std140, binding = 0) uniform StepInfo { FilmStepInfo info; };
 layout(std430, binding = 1) buffer Ridges {
   int ridge_pl[kMaxGlassWipers * kBladeSegments];
-  int ridge_before_pl[kMaxGlassWipers * kBladeSegments];  // as it was when the step's sweeps began
   uint wiped_pl;                                          // thrown off so far, modulo 2^32
 };
 

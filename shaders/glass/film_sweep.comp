@@ -1,20 +1,38 @@
-// A blade passes over the texels whose angle lies in its way: all but a residual film goes to its ridge.
+// A blade passes over the texels whose angle lies in its way, each piece of it over its own, one after the other: what it does not leave behind goes
+// to its ridge. Then the ridge levels along the blade.
 #include "glass/film_buffers.glsl"
-layout(local_size_x = 64) in;
+#include "shared/glass_wiper.glsl"
+layout(local_size_x = kBladeSegments) in;
 layout(std430, binding = 0) readonly buffer Swept { SweptTexel swept[]; };
+layout(std430, binding = 2) readonly buffer Ranges { SweptRange ranges[]; };  // one for each piece
 layout(std430, binding = 3) buffer Film { int film[]; };
-layout(location = 2) uniform int first;
-layout(location = 3) uniform int residual_pl;
+layout(location = 2) uniform int first_piece;
+layout(location = 3) uniform int backwards;
 
-const int kFullRidge_pl = 1000000000;  // 1 mL on a piece of a centimetre: more runs under the blade
+shared int carried[kBladeSegments];
+
+int swept_over(int ridge, SweptRange range) {
+  for (int k = 0; k < range.count; ++k) {
+    SweptTexel entry = swept[range.first + (backwards != 0 ? range.count - 1 - k : k)];
+    int place = placeOf(entry.texel), volume = film[place];
+    int left = leftBehind_pl(volume, entry, ridge);
+    if (left == volume) continue;
+    ridge += left < volume ? passed(kSweep, volume - left) : volume - left;
+    film[place] = left;
+    wake(entry.texel);
+  }
+  return ridge;
+}
 
 void main() {
-  int i = int(gl_GlobalInvocationID.x);
-  if (i >= count) return;
-  SweptTexel entry = swept[first + i];
-  if (ridge_before_pl[entry.segment] > kFullRidge_pl) return;
-  int volume = atomicMin(film[placeOf(entry.texel)], residual_pl);
-  if (volume <= residual_pl) return;
-  atomicAdd(ridge_pl[entry.segment], passed(kSweep, volume - residual_pl));
-  wake(entry.texel);
+  int piece = int(gl_LocalInvocationID.x);
+  int ridge = swept_over(ridge_pl[first_piece + piece], ranges[piece]);
+  for (int k = 0; k < kLevellings; ++k) {
+    carried[piece] = ridge;
+    barrier();
+    if (piece > 0) ridge += levelledAlong_pl(carried[piece - 1], carried[piece]);
+    if (piece + 1 < kBladeSegments) ridge -= levelledAlong_pl(carried[piece], carried[piece + 1]);
+    barrier();
+  }
+  ridge_pl[first_piece + piece] = ridge;
 }

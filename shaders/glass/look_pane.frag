@@ -1,6 +1,7 @@
 // A pixel of the pane: the picture behind it, bent by the film's surface, blurred by droplets too small to be seen one by one.
 #include "optics/bicubic.glsl"
 #include "optics/near.glsl"
+#include "optics/ridge.glsl"
 #include "optics/surroundings.glsl"
 #include "shared/optics_drop.glsl"
 
@@ -29,12 +30,22 @@ vec2 inPicture(vec3 direction_eye) {
 // Past its border the picture goes on as in a mirror.
 vec2 mirrored(vec2 at) { return abs(at - 2.0 * round(0.5 * at)); }
 
-// The picture behind the glass at its pixel moved by `shift`.
-vec3 behind(vec2 at, vec2 shift) {
-  vec2 moved = at + shift;
+// How many of the picture's pixels a pixel spans that looks at it there.
+float spanned_px(vec2 moved) {
   vec2 step_px = max(abs(dFdx(moved)), abs(dFdy(moved))) * frame.viewport.zw;
-  float lod = max(log2(max(step_px.x, step_px.y)), 0.0);
-  return decode(textureLod(picture, mirrored(moved), lod).rgb);
+  return max(max(step_px.x, step_px.y), 1.0);
+}
+
+vec3 behind(vec2 moved, float spanned) { return decode(textureLod(picture, mirrored(moved), log2(spanned)).rgb); }
+
+// How much of a shift leads to what lies behind the glass. The picture also holds what stands before it or close to it, pillar, roof, frit, blade:
+// there a bent view sees past them, and the picture does not know what. The half, the quarter of the shift serve for it, at last none.
+float shareToBehind(vec2 at, vec2 shift, float spanned, float behind_m, vec3 normal_eye, float offset_m) {
+  float least_m = min(0.5 * behind_m, kFarthestNear_m);
+  vec2 beyond = shift * (1.5 * spanned / max(length(shift * frame.viewport.zw), 1.0));  // the picture is read between its pixels
+  float share = 1.0;
+  for (int k = 0; k < 3 && behindGlassAt_m(mirrored(at + share * shift + beyond), normal_eye, offset_m) < least_m; ++k) share = k == 2 ? 0.0 : 0.5 * share;
+  return share;
 }
 
 // Droplets are lenses of a few radii's focal length: each throws a view of its own, tens of degrees wide, into the pixel. What many of
@@ -50,6 +61,7 @@ void main() {
 #else
   vec4 water = textureLod(film, i.uv, 0.0);
 #endif
+  addRidges(i.from_eye + frame.eye_in_vehicle.xyz, water);
   vec3 normal = normalize(i.normal);
   float to_glass_m = length(i.from_eye);
   vec3 view = i.from_eye / to_glass_m;
@@ -74,8 +86,13 @@ void main() {
   // A view bent at the glass misses what stands close behind it by less than what is far.
   float lever = behind_m / (behind_m + to_glass_m);
   vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - at);
+  vec3 normal_eye = eye_from_vehicle * normal;
+  float spanned = spanned_px(at + shift);
+  float share = shareToBehind(at, shift, spanned, behind_m, normal_eye, dot(normal_eye, eye_from_vehicle * i.from_eye));
+  shift *= share;
+  if (share < 1.0) spanned = 1.0;
   vec3 blurred = throughDroplets(at + shift);
-  vec3 light = mix(behind(at, shift), blurred, beads);
+  vec3 light = mix(behind(at + shift, spanned), blurred, beads);
   // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
   light = frame.brightness * mix(light, frame.cabin_share * blurred, more / (1.0 - flat_reflectance));
 #else
@@ -87,7 +104,7 @@ void main() {
   float reflectance = first + (1.0 - first) * (1.0 - first) * fresnel(max(-dot(view, normal), 0.02), kWindowIndex);
   float lever = kBehindGlass_m / (kBehindGlass_m + to_glass_m);
   vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
-  vec3 light = frame.brightness * mix(behind(at, shift), throughDroplets(at + shift), beads);
+  vec3 light = frame.brightness * mix(behind(at + shift, spanned_px(at + shift)), throughDroplets(at + shift), beads);
   vec3 reflected = mat3(frame.world_from_vehicle) * reflect(view, surface);
   light = mix(light, surroundings(reflected, 0.02 + 4.0 * length(fwidth(slope))), reflectance);
 #endif

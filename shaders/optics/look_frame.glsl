@@ -2,6 +2,12 @@
 #ifndef RG_OPTICS_LOOK_FRAME_GLSL
 #define RG_OPTICS_LOOK_FRAME_GLSL
 
+struct LookBlade {
+  vec4 middle_length;  // xyz: vehicle frame; w: of the blade, m
+  vec4 along_first;    // xyz: unit, from the first piece to the last; w: number of the first
+  vec4 ahead;          // xyz: unit, across it, where its ridge is
+};
+
 layout(std140, binding = 0) uniform Frame {
   mat4 clip_from_eye;
   mat4 eye_from_vehicle;    // of the pane being drawn
@@ -27,5 +33,10 @@ layout(std140, binding = 0) uniform Frame {
   uint internal_reflections;
   uint dry_reflection;
   float film_unit_m3;
+  int blade_count;          // that push a ridge
+  float ridge_tan_contact;  // tangent of the angle in which its foot meets the glass
+  float unused_a;
+  float unused_b;
+  LookBlade blades[8];      // kMaxGlassWipers
 } frame;
 #endif

@@ -9,12 +9,23 @@ layout(binding = 5) uniform sampler2D scene_depth;
 const float kFarthestNear_m = 0.25;  // a wiper's arm stands less far off the glass
 const float kNear_m = 0.08;          // all of what stands nearer is near
 
+// How far along the view the target's depth says that something stands at a pixel (of the target).
+float sceneDepthAt_m(ivec2 px) { return rainSceneDepth(texelFetch(scene_depth, px, 0).r, frame.depth_rows, frame.depth_seen - 1u); }
+
 // How far behind the glass, along its pixel's ray, the nearest thing stands; `to_glass_m`: from the eye along the ray. Endless where the target's
 // depth is not given.
 float behindGlass_m(float to_glass_m) {
-  float stored = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
-  float along_view = rainSceneDepth(stored, frame.depth_rows, frame.depth_seen - 1u);
-  float gap = max(along_view * gl_FragCoord.w - 1.0, 0.0) * to_glass_m;
+  float gap = max(sceneDepthAt_m(ivec2(gl_FragCoord.xy)) * gl_FragCoord.w - 1.0, 0.0) * to_glass_m;
+  return frame.depth_seen == 0u ? 1e7 : gap;
+}
+
+// The same for another place of the picture (0 .. 1), the glass there being the plane `normal` . p = `offset_m` (eye frame, the pane's tangent plane).
+float behindGlassAt_m(vec2 at, vec3 normal, float offset_m) {
+  vec2 ndc = 2.0 * at - 1.0;
+  vec3 ray = vec3((ndc + vec2(frame.clip_from_eye[2][0], frame.clip_from_eye[2][1])) / vec2(frame.clip_from_eye[0][0], frame.clip_from_eye[1][1]), -1.0);
+  float glass_m = offset_m / dot(normal, ray);  // along the view
+  float scene_m = sceneDepthAt_m(ivec2(frame.viewport.xy + clamp(at, 0.0, 0.9999) * frame.viewport.zw));
+  float gap = glass_m > 0.0 ? max(scene_m - glass_m, 0.0) * length(ray) : 1e7;
   return frame.depth_seen == 0u ? 1e7 : gap;
 }
 

@@ -7,7 +7,7 @@ RG_SHARED_BEGIN
 RG_CONST float kPicolitre_m3 = 1.0e-15f;
 RG_CONST int kTileSize = 16;      // texels along a tile's side: a work group of the film, and the grain of what it reports
 RG_CONST int kStripSize = 4;      // texels side by side that one invocation works on together
-RG_CONST int kBladeSegments = 64; // a blade's ridge is kept in so many pieces along it
+RG_CONST int kBladeSegments = 192; // a blade's ridge is kept in so many pieces along it: about a texel each
 RG_CONST int kMaxGlassWipers = 8; // on one pane
 
 // A drop as it is to be drawn. Grid metres: the pane's film grid, x along its columns, y along its rows, cells `texel_m` wide, origin in the
@@ -51,8 +51,11 @@ struct FilmChange { int texel; int added_pl; int share_65536; int take; };
 RG_SIZE(FilmChange, 16)
 struct RidgeLeave { int segment; int first; int count; int unused; }; // the ridge's water goes to `count` texels of a list; 0: off the glass
 RG_SIZE(RidgeLeave, 16)
-struct SweptTexel { int texel; int segment; };            // static: sorted by the angle at which the blade crosses
-RG_SIZE(SweptTexel, 8)
+// Static: sorted by piece of the blade and the angle at which it crosses. What it leaves there, and what more when it drags.
+struct SweptTexel { int texel; int residual_pl; int smear_pl; int unused; };
+RG_SIZE(SweptTexel, 16)
+struct SweptRange { int first; int count; };              // of those, what a piece sweeps
+RG_SIZE(SweptRange, 8)
 
 RG_SHARED_END
 #endif

@@ -213,13 +213,17 @@ TEST_F(BadObjects, wipersThatCannotTurn) {
           [](rg_wiper_info& w) { w.rest_direction[0] = 0.0, w.rest_direction[2] = 1.0; });
   refused("no arm", "arm_m", [](rg_wiper_info& w) { w.arm_m = 0.0; });
   refused("no blade", "blade_m", [](rg_wiper_info& w) { w.blade_m = 0.0; });
+  refused("a blade more than worn", "wear", [](rg_wiper_info& w) { w.wear = 1.5; });
+  refused("a whirling blade", "blade_turn", [](rg_wiper_info& w) { w.blade_turn = 3.0; });
+  refused("a blade without lift", "lift_m", [](rg_wiper_info& w) { w.lift_m = 0.0; });
   refused("a flooding blade", "residual_film_m", [](rg_wiper_info& w) { w.residual_film_m = 1.0; });
   expectStructChecked<rg_wiper_info>(
       "rg_wiper_info", good,
       {offsetof(rg_wiper_info, pivot_m), offsetof(rg_wiper_info, axis) + 8,
        offsetof(rg_wiper_info, rest_direction) + 16, offsetof(rg_wiper_info, arm_m),
        offsetof(rg_wiper_info, blade_m), offsetof(rg_wiper_info, blade_angle_rad),
-       offsetof(rg_wiper_info, residual_film_m)},
+       offsetof(rg_wiper_info, residual_film_m), offsetof(rg_wiper_info, blade_turn),
+       offsetof(rg_wiper_info, wear), offsetof(rg_wiper_info, lift_m)},
       [&](const rg_wiper_info& w) { return api.set_wiper(scene.instance, kWiper, &w); });
   expectRefused(
       "id 0", [&] { return api.set_wiper(scene.instance, 0, &good); }, RG_ERROR_BAD_ARGUMENT, "wiper id");

@@ -7,6 +7,7 @@
 
 #include "glass/film_order.h"
 #include "glass/pane_map.h"
+#include "shared/glass_wiper.glsl"
 
 namespace rg::test {
 
@@ -29,7 +30,7 @@ class FilmReference {
     }
     for (const shared::FilmAdd& add : order.adds) at(add.texel) += add.volume_pl;
     for (const shared::RidgeAdd& add : order.ridge_adds) ridge(add.segment) += add.volume_pl;
-    for (const glass::SweepOrder& sweep : order.sweeps) this->sweep(sweep);
+    for (const glass::SweepOrder& sweep : order.sweeps) this->sweep(sweep, order);
     for (const shared::RidgeLeave& leave : order.leaves) report.wiped_pl += this->leave(leave, order);
     step(order, report);
     for (const int32_t volume : ridge_) report.ridge_pl += volume;
@@ -40,12 +41,26 @@ class FilmReference {
   int32_t& at(int texel) { return film[static_cast<size_t>(texel)]; }
   int32_t& ridge(int segment) { return ridge_[static_cast<size_t>(segment)]; }
 
-  void sweep(const glass::SweepOrder& sweep) {
-    for (int i = sweep.first; i < sweep.first + sweep.count; ++i) {
-      const shared::SweptTexel& entry = (*sweep.swept)[static_cast<size_t>(i)];
-      if (at(entry.texel) <= sweep.residual_pl) continue;
-      ridge(entry.segment) += at(entry.texel) - sweep.residual_pl;
-      at(entry.texel) = sweep.residual_pl;
+  void sweep(const glass::SweepOrder& sweep, const glass::FilmOrder& order) {
+    for (int piece = 0; piece < shared::kBladeSegments; ++piece) {
+      const shared::SweptRange range = order.sweep_ranges[static_cast<size_t>(sweep.first_range + piece)];
+      for (int k = 0; k < range.count; ++k) {
+        const int i = range.first + (sweep.backwards ? range.count - 1 - k : k);
+        const shared::SweptTexel& entry = (*sweep.swept)[static_cast<size_t>(i)];
+        int32_t& carried = ridge(sweep.first_piece + piece);
+        const int left = shared::leftBehind_pl(at(entry.texel), entry, carried);
+        carried += at(entry.texel) - left;
+        at(entry.texel) = left;
+      }
+    }
+    for (int k = 0; k < shared::kLevellings; ++k) {
+      const std::vector<int32_t> before = ridge_;
+      for (int piece = 0; piece + 1 < shared::kBladeSegments; ++piece) {
+        const auto here = static_cast<size_t>(sweep.first_piece + piece);
+        const int flow = shared::levelledAlong_pl(before[here], before[here + 1]);
+        ridge_[here] -= flow;
+        ridge_[here + 1] += flow;
+      }
     }
   }
 

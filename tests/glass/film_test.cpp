@@ -108,7 +108,9 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
   glass::PaneInfo info = paneInfo(mesh);
   info.max_drops = 3000;
   glass::PaneSim sim(info, 1, 7);
-  sim.setWiper(3, wiper(rad(30), 0.4));
+  glass::WiperInfo worn = wiper(rad(30), 0.4);
+  worn.wear = 0.7;
+  sim.setWiper(3, worn);
   const WiperMotor motor(3, rad(20), rad(150), 70.0);
   sim.attachFilm();
   FilmReference reference(sim.map());
@@ -138,7 +140,7 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
         events += expected.tiles[t].event_texel >= 0 ? 1 : 0;
       }
       for (const int v : expected.taken_pl) took += v;
-      for (const glass::SweepOrder& s : order.sweeps) swept += s.count;
+      for (const shared::SweptRange& range : order.sweep_ranges) swept += range.count;
       left += static_cast<int64_t>(order.leaves.size());
       wiped += expected.wiped_pl;
       sim.deliver(std::move(expected));

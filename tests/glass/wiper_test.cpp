@@ -14,57 +14,155 @@ namespace {
 
 class Wiping : public GlTest {};
 
+std::multiset<int> sweptBy(const glass::Wiper& wiper, const glass::Sweep& sweep) {
+  std::multiset<int> texels;
+  for (const shared::SweptRange& range : wiper.ranges(sweep)) {
+    for (int i = range.first; i < range.first + range.count; ++i)
+      texels.insert((*wiper.swept())[static_cast<size_t>(i)].texel);
+  }
+  return texels;
+}
+
+// A wiper of the windscreen by its geometry alone: single, one of a tandem or opposed pair, a pantograph.
+struct Linkage {
+  const char* name;
+  double pivot_right_m, arm_m, blade_m, blade_angle_rad, turn, from_rad, to_rad;
+};
+const Linkage kLinkages[] = {
+    {"single", 0.0, 0.4, 0.5, 0.0, 0.0, rad(10), rad(150)},
+    {"tandem", -0.35, 0.42, 0.52, rad(8), 0.0, rad(5), rad(95)},
+    {"opposed", 0.6, 0.45, 0.6, rad(-10), 0.0, rad(10), rad(100)},
+    {"blade across its arm", 0.0, 0.3, 0.5, rad(75), 0.0, rad(20), rad(140)},
+    {"pantograph", 0.0, 0.5, 0.45, rad(90), -1.0, rad(45), rad(135)},
+    {"half a pantograph", 0.1, 0.45, 0.5, rad(50), -0.5, rad(20), rad(150)},
+    {"blade that turns ahead", 0.0, 0.4, 0.5, 0.0, 0.15, rad(10), rad(140)},
+};
+
+glass::WiperInfo wiperOf(const Linkage& linkage) {
+  glass::WiperInfo info = test::wiper();
+  info.pivot_m += glm::dvec3(0.0, -linkage.pivot_right_m, 0.0);
+  info.arm_m = linkage.arm_m;
+  info.blade_m = linkage.blade_m;
+  info.blade_angle_rad = linkage.blade_angle_rad;
+  info.blade_turn = linkage.turn;
+  return info;
+}
+
+// A crank's cosine, as motors turn; every reversal is told.
+std::vector<glass::Sweep> strokesOf(const Linkage& linkage, double cycles_per_min, double hz) {
+  std::vector<glass::Sweep> sweeps;
+  const double cycle_s = 60.0 / cycles_per_min;
+  double phase = 0.0, angle = linkage.from_rad;
+  const auto go = [&](double to_phase) {
+    const double to = to_phase == 0.5   ? linkage.to_rad
+                      : to_phase == 1.0 ? linkage.from_rad
+                                        : linkage.from_rad + (linkage.to_rad - linkage.from_rad) * 0.5 *
+                                                                 (1.0 - std::cos(2.0 * kPi * to_phase));
+    sweeps.push_back({angle, to});
+    angle = to;
+    phase = to_phase;
+  };
+  while (phase < 1.0) {
+    const double next = std::min(1.0, phase + 1.0 / hz / cycle_s);
+    if (phase < 0.5 && next > 0.5) go(0.5);
+    go(next);
+  }
+  return sweeps;
+}
+
 TEST(Sweep, coversEveryTexelOncePerStrokeAtAnyRate) {
   const Mesh mesh = windscreen(1.5, 0.8, rad(30), 0.05);
   const glass::PaneMap map(paneInfo(mesh));
-  const glass::Wiper wiper(test::wiper(), map, 0);
-  const double from = rad(10), to = rad(150);
-  const auto [first, last] = wiper.range({from, to});
-  std::multiset<int> whole;
-  for (int i = first; i < last; ++i) whole.insert((*wiper.swept())[static_cast<size_t>(i)].texel);
-  EXPECT_GT(whole.size(), 40000u);
-  for (const double hz : {12.0, 30.0, 60.0, 144.0, 7.3}) {
-    for (const bool back : {false, true}) {
-      std::multiset<int> swept;
-      const double stroke_s = 60.0 / 45.0 / 2.0;  // 45 cycles a minute
-      double before = back ? to : from;
-      for (int k = 1; before != (back ? from : to); ++k) {
-        const double share = std::min(1.0, k / hz / stroke_s);
-        const double now = share == 1.0 ? (back ? from : to)
-                           : back       ? to + (from - to) * share
-                                        : from + (to - from) * share;
-        const auto [a, b] = wiper.range({before, now});
-        for (int i = a; i < b; ++i) swept.insert((*wiper.swept())[static_cast<size_t>(i)].texel);
-        before = now;
+  for (const Linkage& linkage : kLinkages) {
+    const glass::Wiper wiper(wiperOf(linkage), map, 0);
+    std::multiset<int> whole = sweptBy(wiper, {linkage.from_rad, linkage.to_rad});
+    EXPECT_GT(whole.size(), 10000u) << linkage.name;
+    whole.merge(sweptBy(wiper, {linkage.to_rad, linkage.from_rad}));
+    for (const double cycles_per_min : {20.0, 45.0, 80.0}) {
+      for (const double hz : {12.0, 60.0, 144.0, 7.3}) {
+        std::multiset<int> swept;
+        for (const glass::Sweep& sweep : strokesOf(linkage, cycles_per_min, hz))
+          swept.merge(sweptBy(wiper, sweep));
+        // Both ways' ends are the same up to texels that lie on them to the last bit.
+        EXPECT_EQ(swept, whole) << linkage.name << ", " << cycles_per_min << "/min, " << hz << " Hz";
       }
-      // Both ends are the same up to texels that lie on them to the last bit.
-      EXPECT_EQ(swept, whole) << hz << " Hz";
     }
   }
+}
+
+// Brute force: the blade as a stick that is moved in small steps; a texel is passed when it changes sides of
+// it between the stick's ends.
+TEST(Sweep, coversWhatAStickPasses) {
+  const Mesh mesh = windscreen();
+  const glass::PaneMap map(paneInfo(mesh));
+  constexpr double kUnsure_m = 1e-6;  // beside the stick's ends, or between where steps end
+  constexpr int kSteps = 3000;
+  for (const Linkage& linkage : kLinkages) {
+    const glass::WiperInfo info = wiperOf(linkage);
+    const glass::Wiper wiper(info, map, 0);
+    const std::multiset<int> swept = sweptBy(wiper, {linkage.from_rad, linkage.to_rad});
+    const glm::dvec3 side = glm::cross(info.axis, info.rest_direction);
+    const auto direction = [&](double angle) {
+      return std::cos(angle) * info.rest_direction + std::sin(angle) * side;
+    };
+    std::vector<glm::dvec3> middles, alongs;
+    for (int n = 0; n <= kSteps; ++n) {
+      const double angle = std::lerp(linkage.from_rad, linkage.to_rad, static_cast<double>(n) / kSteps);
+      middles.push_back(info.pivot_m + info.arm_m * direction(angle));
+      alongs.push_back(direction(info.blade_angle_rad + (1.0 + info.blade_turn) * angle));
+    }
+    size_t passed = 0, unsure = 0;
+    for (int i = 0; i < map.texelCount(); i += 41) {
+      if (!map.inside(i)) continue;
+      const glm::dvec3 place(map.texel(i).position_m);
+      size_t times = 0;
+      bool sure = true;
+      double before = 0.0;
+      for (size_t n = 0; n <= kSteps; ++n) {
+        const glm::dvec3 d = place - middles[n];
+        const double across = glm::dot(glm::cross(alongs[n], d), info.axis);
+        const double beyond = std::abs(glm::dot(alongs[n], d)) - 0.5 * info.blade_m;
+        const bool changes = n > 0 && (across < 0.0) != (before < 0.0);
+        // Where its line turns about a place within a step, the step tells nothing.
+        if (changes && std::abs(beyond) < std::abs(across) + std::abs(before) + kUnsure_m) sure = false;
+        if (changes && beyond < 0.0) ++times;
+        if ((n == 0 || n == kSteps) && std::abs(across) < kUnsure_m) sure = false;
+        before = across;
+      }
+      if (sure) {
+        EXPECT_EQ(swept.count(i), times) << linkage.name << ", texel " << i;
+      }
+      passed += times;
+      unsure += sure ? 0 : 1;
+    }
+    EXPECT_GT(passed, 300u) << linkage.name;
+    EXPECT_LT(unsure, passed / 20) << linkage.name;
+  }
+}
+
+TEST(Sweep, aPantographsBladeKeepsItsDirection) {
+  const glass::PaneMap map(paneInfo(windscreen(0.3, 0.3)));
+  const glass::Wiper wiper(wiperOf(kLinkages[4]), map, 0);
+  EXPECT_LT(glm::distance(wiper.poseAt(rad(50)).along, wiper.poseAt(rad(130)).along), 1e-12);
 }
 
 // Brute force: the blade as a segment in the plane.
 TEST(Sweep, angleOfCrossingIsWhereTheBladeLies) {
   const Mesh mesh = windscreen();
   const glass::PaneMap map(paneInfo(mesh));
-  for (const double blade_angle : {0.0, rad(25), rad(-40), rad(90)}) {
-    glass::WiperInfo info = test::wiper();
-    info.blade_angle_rad = blade_angle;
+  for (const Linkage& linkage : kLinkages) {
+    const glass::WiperInfo info = wiperOf(linkage);
     const glass::Wiper wiper(info, map, 0);
-    const glm::dvec3 side = glm::cross(info.axis, info.rest_direction);
-    const auto direction = [&](double angle) {
-      return std::cos(angle) * info.rest_direction + std::sin(angle) * side;
-    };
     int crossed = 0;
     for (int i = 0; i < map.texelCount(); i += 37) {
       if (!map.inside(i)) continue;
       const glm::dvec3 place(map.texel(i).position_m);
       const glass::Crossings c = wiper.crossingsAt(place);
       for (int k = 0; k < c.count; ++k) {
-        const glm::dvec3 middle = info.pivot_m + info.arm_m * direction(c.angle_rad[k]);
-        const glm::dvec3 along = direction(c.angle_rad[k] + blade_angle);
-        const double s = glm::dot(place - middle, along);
-        EXPECT_NEAR(glm::length(place - middle - s * along), 0.0, 1e-6);
+        const glass::BladePose pose = wiper.poseAt(c.angle_rad[k]);
+        const double s = glm::dot(place - pose.middle_m, pose.along);
+        EXPECT_NEAR(glm::length(place - pose.middle_m - s * pose.along), 0.0, 1e-6);
+        EXPECT_NEAR(s, c.along_m[k], 1e-9);
         EXPECT_LE(std::abs(s), 0.5 * info.blade_m + 1e-9);
         ++crossed;
       }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "drive/driver.h"
+#include "drive/rain_sensor.h"
 #include "drive/ticks.h"
 #include "drive/wiper_control.h"
 #include "scenario.h"
@@ -102,6 +103,69 @@ TEST(WiperMotor, makesItsCyclesPerMinuteAndParksAfterwards) {
   EXPECT_GE(kFastCycles_per_min, 45.0);
   EXPECT_GE(kSlowCycles_per_min, 20.0);
   EXPECT_GE(kFastCycles_per_min - kSlowCycles_per_min, 15.0);
+}
+
+int cyclesIn(WiperMotor& motor, double seconds) {
+  int reversals = 0;
+  for (int i = 0; i < 120 * seconds; ++i) {
+    for (const WiperKnotShare& k : motor.tick()) reversals += k.share == 1.0 ? 1 : 0;
+  }
+  return reversals;
+}
+
+TEST(WiperMotor, pausesAsLongAsTold) {
+  for (const double pause_s : {1.0, 4.0, 13.0}) {
+    WiperMotor motor;
+    motor.setMode(WiperMode::intermittent, pause_s);
+    const double cycle_s = 60.0 / kSlowCycles_per_min + pause_s;
+    EXPECT_NEAR(cyclesIn(motor, 20.0 * cycle_s), 20.0, 1.0) << pause_s;
+  }
+  // A shorter pause, told in the pause, begins with the pause.
+  WiperMotor motor;
+  motor.setMode(WiperMode::intermittent, 30.0);
+  EXPECT_EQ(cyclesIn(motor, 10.0), 1);
+  motor.setMode(WiperMode::intermittent, 2.0);
+  EXPECT_EQ(cyclesIn(motor, 1.0), 1);
+}
+
+TEST(WiperMotor, wipesThreeTimesAfterAWash) {
+  WiperMotor motor;
+  EXPECT_EQ(cyclesIn(motor, 5.0), 0);
+  motor.wipe(kWashCycles);
+  EXPECT_EQ(cyclesIn(motor, 20.0), kWashCycles);
+}
+
+// Steady rain of a rate on the glass, sensed four times a second.
+WiperMode sensedAt(RainSensor& sensor, double rate_mm_h, double& time_s, double& caught_m3,
+                   double seconds = 20.0) {
+  for (const double end_s = time_s + seconds; time_s < end_s; time_s += 0.25) {
+    sensor.sense(caught_m3, 1.3, time_s);
+    caught_m3 += rate_mm_h / 3.6e6 * 1.3 * 0.25;
+  }
+  return sensor.mode();
+}
+
+TEST(RainSensor, wipesTheMoreTheMoreIsCaught) {
+  RainSensor sensor;
+  double time_s = -3.0, caught_m3 = 1.0;
+  EXPECT_EQ(sensedAt(sensor, 0.0, time_s, caught_m3), WiperMode::off);
+  EXPECT_EQ(sensedAt(sensor, 2.0, time_s, caught_m3), WiperMode::intermittent);
+  EXPECT_NEAR(sensor.rate_mm_h(), 2.0, 0.01);
+  const double drizzle_s = sensor.pause_s();
+  EXPECT_EQ(sensedAt(sensor, 8.0, time_s, caught_m3), WiperMode::intermittent);
+  EXPECT_LT(sensor.pause_s(), 0.5 * drizzle_s);
+  EXPECT_EQ(sensedAt(sensor, 30.0, time_s, caught_m3), WiperMode::slow);
+  EXPECT_EQ(sensedAt(sensor, 100.0, time_s, caught_m3), WiperMode::fast);
+  EXPECT_EQ(sensedAt(sensor, 0.0, time_s, caught_m3), WiperMode::off);
+}
+
+TEST(RainSensor, doesNotWaverAboutAStep) {
+  RainSensor sensor;
+  double time_s = 0.0, caught_m3 = 0.0;
+  EXPECT_EQ(sensedAt(sensor, 13.0, time_s, caught_m3), WiperMode::slow);
+  EXPECT_EQ(sensedAt(sensor, 10.0, time_s, caught_m3), WiperMode::slow);
+  EXPECT_EQ(sensedAt(sensor, 6.0, time_s, caught_m3), WiperMode::intermittent);
+  EXPECT_EQ(sensedAt(sensor, 10.0, time_s, caught_m3), WiperMode::intermittent);
 }
 
 TEST(Ticks, lieWhereTheClockSays) {

@@ -8,13 +8,19 @@ namespace rg::test {
 
 using shared::GlassDropRecord;
 
+FlatPane::Axes::Axes(double angle_from_horizontal_rad) {
+  const double s = std::sin(angle_from_horizontal_rad), c = std::cos(angle_from_horizontal_rad);
+  up = {-c, 0.0, s};
+  outward = {s, 0.0, c};
+}
+
 FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, double size_m, int texels,
                    bool mirrored)
     : gl_(gl), size_m_(size_m), across_(mirrored ? -1.0 : 1.0), texels_(texels) {
-  const double s = std::sin(angle_from_horizontal_rad), c = std::cos(angle_from_horizontal_rad);
+  const Axes axes(angle_from_horizontal_rad);
   right = {0.0, -across_, 0.0};
-  up = {-c, 0.0, s};
-  outward = {s, 0.0, c};
+  up = axes.up;
+  outward = axes.outward;
   const double texel_m = size_m / texels;
   std::vector<float> mesh;
   for (int corner = 0; corner < 4; ++corner) {

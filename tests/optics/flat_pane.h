@@ -28,6 +28,11 @@ class FlatPane {
   // A spherical cap at (u, v) from the pane's middle, round.
   shared::GlassDropRecord cap(double u_m, double v_m, double base_radius_m, double contact_rad) const;
 
+  struct Axes {
+    explicit Axes(double angle_from_horizontal_rad);
+    glm::dvec3 up, outward;
+  };
+
   glass::LookPane pane;
   glm::dvec3 right{0.0}, up{0.0}, outward{0.0};
 

@@ -36,6 +36,18 @@ TEST(State, isTheSameForEveryFrameRateAndUpdateRateAndFromRunToRun) {
     EXPECT_EQ(hashesOf(std::string("--fps 12 --shots 0.7,1.2 --update-hz ") + rate), at60) << rate;
 }
 
+// The rain sensor reads the plugin and the washer orders from it at times of their own.
+TEST(State, isTheSameHoweverTimeIsCutWithSensorAndWasher) {
+  const std::string wet =
+      "--set wipers=auto --set washes=[0.503] --set weather.rain_mm_h=60 --fps 12 --shots 1.2 ";
+  const Hashes at60 = hashesOf(wet + "--update-hz 60");
+  EXPECT_FALSE(at60.state.empty());
+  for (const char* rate : {"30", "irregular"})
+    EXPECT_EQ(hashesOf(wet + "--update-hz " + rate), at60) << rate;
+  EXPECT_NE(hashesOf(wet + "--update-hz 60 --set wipers=off"), at60);
+  EXPECT_NE(hashesOf(wet + "--update-hz 60 --set washes=[]"), at60);
+}
+
 TEST(State, dependsOnTheSeed) {
   EXPECT_NE(hashesOf("--shots 1.2 --seed 1"), hashesOf("--shots 1.2 --seed 2"));
 }

@@ -53,8 +53,11 @@ Meaning readShelter(const Fields& f) {
   return ShelterMeaning{readName(f)};
 }
 
+constexpr double kUsualWear = 0.3;  // of blades that have been on the road for some months
+
 Meaning readWiper(const Fields& f) {
-  f.allowOnly({"type", "name", "pane", "arm_m", "blade_m", "blade_angle_deg", "sweep_deg"});
+  f.allowOnly(
+      {"type", "name", "pane", "arm_m", "blade_m", "blade_angle_deg", "sweep_deg", "blade_turn", "wear"});
   WiperMeaning wiper;
   wiper.name = readName(f);
   wiper.pane = readName(f, "pane");
@@ -63,6 +66,8 @@ Meaning readWiper(const Fields& f) {
   wiper.blade_angle_rad = radians(f, "blade_angle_deg", -180.0, 180.0, 0.0);
   wiper.sweep_rad = radians(f, "sweep_deg", -180.0, 180.0, {});
   if (std::abs(f.number("sweep_deg", -180.0, 180.0)) < 5.0) f.failAt("sweep_deg", "must be 5..180 in size");
+  wiper.blade_turn = static_cast<float>(f.number("blade_turn", -2.0, 2.0, 0.0));
+  wiper.wear = static_cast<float>(f.number("wear", 0.0, 1.0, kUsualWear));
   return wiper;
 }
 

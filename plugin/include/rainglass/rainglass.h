@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 1u
+#define RG_ABI_MINOR 2u
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -273,7 +273,27 @@ typedef struct rg_wiper_info {
   double blade_m;           /* blade's length */
   double blade_angle_rad;   /* from the arm's direction to the blade's */
   double residual_film_m;   /* what a pass leaves; 0 .. 1e-4; default 1e-7 */
+  /* Since minor 2. */
+  double blade_turn; /* how far the blade turns on its arm for each radian the arm turns, -2 .. 2: 0 (default)
+                        rigid, -1 a pantograph, whose blade keeps its direction on the glass. blade_angle_rad
+                        is at angle 0 then */
+  double wear;       /* 0 (default) a new blade, which leaves residual_film_m everywhere .. 1; a worn one
+                        leaves streaks and smears where it runs dry. What streaks is a hash of the wiper's id */
+  double lift_m;     /* drops that stand higher on the glass are cut there: the rest stays behind the blade;
+                        1e-5 .. 1; default 2e-3 */
 } rg_wiper_info;
+
+/* A washer's jet on a pane, since minor 2. What of its cone meets the pane's outer side is caught by it. */
+typedef struct rg_wash_info {
+  uint32_t struct_size;
+  uint32_t pane;
+  int64_t time_ns;     /* when it begins; at once when that is past */
+  double duration_s;   /* 0.01 .. 60; default 1 */
+  double volume_m3;    /* that leaves the nozzle, evenly over that time; 0 .. 1e-3; default 2e-5 (20 mL) */
+  double nozzle_m[3];  /* vehicle frame */
+  double direction[3]; /* unit, vehicle frame; a jet is so fast that it goes straight */
+  double fan_rad;      /* whole angle of its cone, 0.01 .. 3; default 0.2 */
+} rg_wash_info;
 
 /* ---- drawing ---- */
 
@@ -529,6 +549,11 @@ typedef struct rg_api {
   /* Replaces the pattern of rain far off, from the next step_gpu on; null: the plugin's own again. [thread:
    * as update] */
   rg_result (*set_rain_pattern)(rg_instance* instance, const rg_rain_pattern* pattern);
+
+  /* From minor version 2 on. */
+  void (*default_wash_info)(rg_wash_info* out); /* [thread: any] */
+  /* Washes a pane once; at most 8 at a time on each. [thread: as update] */
+  rg_result (*wash)(rg_instance* instance, const rg_wash_info* info);
 } rg_api;
 
 /* The table for this ABI major, or null when this library does not speak it. Static: never freed. [thread:

@@ -4,17 +4,26 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tick.h"
+
 namespace rg::glass {
+namespace {
+constexpr double kMostTurn = 2.0;
+constexpr double kAbout = 1.1;  // texels: so near to any place there are three or four texels' middles
+}  // namespace
 
 void Blades::set(uint32_t id, const WiperInfo& info, const PaneMap& map, FilmLink& film) {
   const bool sound = info.arm_m >= 0.01 && info.arm_m < 5.0 && info.blade_m > 0.0 && info.blade_m < 5.0 &&
                      std::isfinite(info.blade_angle_rad) && info.residual_film_m >= 0.0 &&
-                     info.residual_film_m <= 1e-4 && std::abs(glm::length(info.axis) - 1.0) < 1e-3 &&
+                     info.residual_film_m <= 1e-4 && std::abs(info.blade_turn) <= kMostTurn &&
+                     info.wear >= 0.0 && info.wear <= 1.0 && info.lift_m > 0.0 &&
+                     std::abs(glm::length(info.axis) - 1.0) < 1e-3 &&
                      std::abs(glm::length(info.rest_direction) - 1.0) < 1e-3 &&
                      std::abs(glm::dot(info.axis, info.rest_direction)) < 1e-2;
   if (!sound)
-    throw std::invalid_argument("wiper " + std::to_string(id) +
-                                ": arm, blade, axis, rest direction or residual film out of range");
+    throw std::invalid_argument(
+        "wiper " + std::to_string(id) +
+        ": arm, blade, axis, rest direction, turn, wear, lift or residual film out of range");
   remove(id, film);
   int slot = 0;
   while (std::any_of(blades_.begin(), blades_.end(),
@@ -23,7 +32,7 @@ void Blades::set(uint32_t id, const WiperInfo& info, const PaneMap& map, FilmLin
   if (slot >= shared::kMaxGlassWipers)
     throw std::invalid_argument("wiper " + std::to_string(id) + ": a pane has at most 8 wipers");
   Blade& blade = blades_[id];
-  blade.wiper = std::make_unique<Wiper>(info, map, slot);
+  blade.wiper = std::make_unique<Wiper>(info, map, slot, id);
 }
 
 void Blades::remove(uint32_t id, FilmLink& film) {
@@ -42,6 +51,9 @@ void Blades::stroke(const DropWorld& world, Drops& drops, const WiperStroke& str
   if (it == blades_.end()) return;
   Blade& blade = it->second;
   blade.angle_rad = stroke.from_rad;
+  // Where it turns round within the tick it is shown standing.
+  blade.speed_radps =
+      stroke.extreme_rad == stroke.to_rad ? (stroke.to_rad - stroke.from_rad) / kTickSeconds : 0.0;
   move(world, drops, blade, stroke.extreme_rad);
   move(world, drops, blade, stroke.to_rad);
   if (stroke.from_rad == stroke.to_rad && stroke.extreme_rad == stroke.to_rad) {
@@ -49,6 +61,16 @@ void Blades::stroke(const DropWorld& world, Drops& drops, const WiperStroke& str
   } else {
     leaveOffGlass(world.film, blade);
   }
+}
+
+std::vector<MovingBlade> Blades::moving() const {
+  std::vector<MovingBlade> out;
+  for (const auto& [id, blade] : blades_) {
+    if (blade.direction == 0.0) continue;
+    out.push_back({blade.wiper->info(), blade.angle_rad, blade.speed_radps, blade.direction,
+                   blade.wiper->slot() * shared::kBladeSegments});
+  }
+  return out;
 }
 
 // One way without reversal.
@@ -60,24 +82,62 @@ void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_
   blade.direction = direction;
   blade.angle_rad = to_rad;
   const Wiper& wiper = *blade.wiper;
-  const auto [first, last] = wiper.range(sweep);
-  const double texel_area_m2 = world.map.grid().texel_m * world.map.grid().texel_m;
-  world.film.sweep({wiper.swept(), first, last - first,
-                    static_cast<int>(picolitres(wiper.info().residual_film_m * texel_area_m2))});
+  world.film.sweep(wiper.swept(), wiper.ranges(sweep), wiper.slot() * shared::kBladeSegments,
+                   direction < 0.0);
   const std::vector<Drop>& all = drops.all();
   for (size_t slot = 0; slot < all.size(); ++slot) {
     const Drop& drop = all[slot];
-    if (drop.volume_pl == 0 || !wiper.mayCross(drop.texel, sweep)) continue;
-    const auto place = world.map.vehicleFromGrid(drop.place_m);
-    if (!place) continue;
-    const Crossings c = wiper.crossingsAt(*place);
-    for (int k = 0; k < c.count; ++k) {
-      if (!sweep.covers(c.angle_rad[k])) continue;
-      const int segment = wiper.slot() * shared::kBladeSegments + c.segment[k];
-      world.film.addToRidge(segment, drops.remove(static_cast<int>(slot)));
-      break;
+    if (drop.volume_pl > 0 && wiper.mayCross(drop.texel, sweep, static_cast<double>(drop.base_radius_m)))
+      meet(world, drops, wiper, sweep, static_cast<int>(slot));
+  }
+}
+
+// A drop is met as the blade's line, longer by the drop's radius, passes its middle. What stands above the
+// blade's lift stays behind as a smaller drop. The rest becomes film over the drop's base, or the next texel
+// the blade comes to, for the sweeps of this step and the next to take: so a blade that passes over a part of
+// it takes that part. What it has passed already is in its ridge.
+void Blades::meet(const DropWorld& world, Drops& drops, const Wiper& wiper, const Sweep& sweep, int slot) {
+  const Drop& drop = drops.all()[static_cast<size_t>(slot)];
+  const glm::dvec2 middle_m = drop.place_m;
+  const auto place = world.map.vehicleFromGrid(middle_m);
+  if (!place) return;
+  const double radius_m = static_cast<double>(drop.base_radius_m);
+  const Crossings c = wiper.crossingsAt(*place, radius_m);
+  int k = 0;
+  while (k < c.count && !sweep.covers(c.angle_rad[k])) ++k;
+  if (k == c.count) return;
+  const glm::dvec2 metres = world.forces.at(world.map, middle_m).metres;
+  const Footprint base = world.film.within(middle_m, metres, radius_m);
+  const bool small = base.count < 2;  // than a texel
+  if (small && std::abs(c.along_m[k]) > 0.5 * wiper.info().blade_m) return;
+
+  const double above_m3 = capVolumeAbove(static_cast<double>(drop.height_m), radius_m, wiper.info().lift_m);
+  const int64_t taken_pl = drops.cut(slot, std::min(picolitres(above_m3), drop.volume_pl));
+  const auto ahead_rad = [&](int texel) {
+    return wiper.ahead_rad(glm::dvec3(world.map.texel(texel).position_m), sweep, c.angle_rad[k]);
+  };
+  int64_t carried_pl = taken_pl;
+  const auto give = [&](int texel, int64_t volume_pl) {
+    world.film.add(texel, volume_pl);
+    carried_pl -= volume_pl;
+  };
+  if (world.film.attached() && small) {
+    const Footprint about = world.film.within(middle_m, metres, kAbout * world.map.grid().texel_m);
+    int next = -1;
+    double least_rad = 1e9;
+    for (size_t i = 0; i < about.count; ++i) {
+      const double rad = ahead_rad(about.texels[i]).value_or(-1.0);
+      if (rad <= 0.0 || rad >= least_rad) continue;
+      least_rad = rad;
+      next = about.texels[i];
+    }
+    if (next >= 0) give(next, taken_pl);
+  } else if (world.film.attached()) {
+    for (size_t i = 0; i < base.count; ++i) {
+      if (ahead_rad(base.texels[i]).value_or(1.0) > 0.0) give(base.texels[i], base.share(i, taken_pl));
     }
   }
+  if (carried_pl > 0) world.film.addToRidge(wiper.slot() * shared::kBladeSegments + c.segment[k], carried_pl);
 }
 
 // The blade turns round or stops where it is: its ridge stays there.

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "glass/drops.h"
 #include "glass/wiper.h"
@@ -16,6 +17,7 @@ class Blades {
   void set(uint32_t id, const WiperInfo& info, const PaneMap& map, FilmLink& film);
   void remove(uint32_t id, FilmLink& film);
   void stroke(const DropWorld& world, Drops& drops, const WiperStroke& stroke);
+  std::vector<MovingBlade> moving() const;
   // Ridges are gone with the water: directions are forgotten.
   void clear();
 
@@ -24,8 +26,10 @@ class Blades {
     std::unique_ptr<Wiper> wiper;
     double angle_rad = 0.0;
     double direction = 0.0;  // of its last way; 0: it rests and carries nothing
+    double speed_radps = 0.0;
   };
   static void move(const DropWorld& world, Drops& drops, Blade& blade, double to_rad);
+  static void meet(const DropWorld& world, Drops& drops, const Wiper& wiper, const Sweep& sweep, int slot);
   static void turn(FilmLink& film, Blade& blade);
   static void leaveOffGlass(FilmLink& film, const Blade& blade);
 

@@ -124,6 +124,15 @@ int64_t Drops::remove(int slot) {
   return std::exchange(drop.volume_pl, 0);
 }
 
+int64_t Drops::cut(int slot, int64_t keep_pl) {
+  if (keep_pl < kLeastDrop_pl) return remove(slot);
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const int64_t taken_pl = drop.volume_pl - keep_pl;
+  drop.volume_pl = keep_pl;
+  settle(drop);
+  return taken_pl;
+}
+
 // When slots run short the smallest sizes are not kept as drops any more, the limit rising from 0 at half
 // full to 2 mm at full.
 void Drops::impact(const DropWorld& world, const Impact& impact) {

@@ -74,6 +74,8 @@ class Drops {
   void give(const DropWorld& world, const Taker& taker, int64_t volume_pl);
   // Removes a drop and says how much it was.
   int64_t remove(int slot);
+  // Takes all of a drop but `keep_pl` and says how much that was; nothing worth a drop is kept.
+  int64_t cut(int slot, int64_t keep_pl);
 
   void move(const DropWorld& world);   // forces, sliding, trails, the pane's edge
   void merge(const DropWorld& world);  // those that touch become one

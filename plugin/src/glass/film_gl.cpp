@@ -13,7 +13,7 @@ constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is 
 constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);                // TileState in film_buffers.glsl
 constexpr std::array<uint32_t, 8> kNoneAwake{0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
-constexpr size_t kRidgeBytes = (2 * kRidgePieces + 1) * sizeof(int32_t);
+constexpr size_t kRidgeBytes = (kRidgePieces + 1) * sizeof(int32_t);
 
 size_t aligned(size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
 
@@ -24,12 +24,13 @@ struct UploadLayout {
     drive = next(order.drive.size() * sizeof(shared::vec4));
     changes =
         next((order.takes.size() + order.adds.size() + order.ridge_adds.size()) * sizeof(shared::FilmChange));
+    ranges = next(order.sweep_ranges.size() * sizeof(shared::SweptRange));
     leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
     texels = next(order.leave_texels.size() * sizeof(int));
   }
   size_t next(size_t part) { return std::exchange(bytes, bytes + aligned(part)); }
   size_t bytes = 0;
-  size_t info, drive, changes, leaves, texels;  // of changes there may be fewer
+  size_t info, drive, changes, ranges, leaves, texels;  // of changes there may be fewer
 };
 
 // Where the parts of a report lie, from its start.
@@ -132,6 +133,7 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
     const std::vector<shared::FilmChange> changes = changesOf(order);
     put(upload, starts[i] + at.changes, changes.data(), changes.size());
     change_counts.push_back(changes.size());
+    put(upload, starts[i] + at.ranges, order.sweep_ranges.data(), order.sweep_ranges.size());
     put(upload, starts[i] + at.leaves, order.leaves.data(), order.leaves.size());
     put(upload, starts[i] + at.texels, order.leave_texels.data(), order.leave_texels.size());
   }
@@ -221,16 +223,17 @@ void FilmGl::runStep(const FilmOrder& order, size_t changes, const Batch& batch,
     bind(2, batch.report, report_at + report.taken, kMostTakes * sizeof(int));
     dispatch(programs_->change, changes);
   }
-  if (!order.sweeps.empty()) {
-    constexpr size_t kHalf = kRidgePieces * sizeof(int32_t);
-    gl_.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl_.CopyNamedBufferSubData(ridges_.name(), ridges_.name(), 0, kHalf, kHalf);
-  }
   for (const SweepOrder& sweep : order.sweeps) {
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, sweptBuffer(sweep));
-    programs_->sweep.set(2, sweep.first);
-    programs_->sweep.set(3, sweep.residual_pl);
-    dispatch(programs_->sweep, static_cast<size_t>(sweep.count));
+    // One work group sweeps, an invocation for each piece; so many ranges keep offsets aligned.
+    constexpr size_t kRanges = shared::kBladeSegments * sizeof(shared::SweptRange);
+    static_assert(kRanges % kAlign == 0);
+    bind(2, batch.upload,
+         upload_at + at.ranges + static_cast<size_t>(sweep.first_range) * sizeof(shared::SweptRange),
+         kRanges);
+    programs_->sweep.set(2, sweep.first_piece);
+    programs_->sweep.set(3, static_cast<int32_t>(sweep.backwards));
+    dispatch(programs_->sweep, 1);
   }
   if (!order.leaves.empty()) {
     orders(at.leaves, order.leaves.size() * sizeof(shared::RidgeLeave));
@@ -304,7 +307,7 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   report.taken_pl.resize(batch.steps[index].takes);
   if (!report.taken_pl.empty())
     std::memcpy(report.taken_pl.data(), from + at.taken, report.taken_pl.size() * sizeof(int));
-  std::vector<int32_t> ridges(2 * kRidgePieces + 1);
+  std::vector<int32_t> ridges(kRidgePieces + 1);
   std::memcpy(ridges.data(), from + at.ridges, kRidgeBytes);
   for (size_t i = 0; i < kRidgePieces; ++i) report.ridge_pl += ridges[i];
   const auto wiped = static_cast<uint32_t>(ridges.back());

@@ -33,6 +33,7 @@ class FilmGl {
 
   // The film as it is, R32I, row by row; made when asked for.
   const gl::Texture2D& picture();
+  const gl::Buffer& ridges() const { return ridges_; }
   std::vector<int32_t> readFilm() const;
   std::vector<int32_t> readRidges() const;
   void abandon();

@@ -78,21 +78,26 @@ void FilmLink::add(int texel, int64_t volume_pl) {
   ledger_.drained_pl += volume_pl - fits;  // a flood that no film holds
 }
 
-void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl) {
+Footprint FilmLink::within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m) const {
   const double texel_m = map_.grid().texel_m;
-  const glm::ivec2 reach(glm::min(glm::ceil(radius_m / (metres * texel_m)), glm::dvec2(8.0)));
+  const glm::ivec2 reach(
+      glm::min(glm::ceil(radius_m / (metres * texel_m)), glm::dvec2(Footprint::kFarthest)));
   const glm::ivec2 middle(glm::floor(grid_m / texel_m));
-  std::array<int, 17 * 17> texels{};
-  size_t count = 0;
+  Footprint out;
   for (int y = middle.y - reach.y; y <= middle.y + reach.y; ++y) {
     for (int x = middle.x - reach.x; x <= middle.x + reach.x; ++x) {
       const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) * texel_m;
       if (glm::length((place - grid_m) * metres) > radius_m) continue;
       const int texel = map_.texelAt(place);
-      if (texel >= 0) texels[count++] = texel;
+      if (texel >= 0) out.texels[out.count++] = texel;
     }
   }
-  if (count == 0) {
+  return out;
+}
+
+void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl) {
+  const Footprint to = within(grid_m, metres, radius_m);
+  if (to.count == 0) {
     const int texel = map_.texelAt(grid_m);
     if (texel >= 0)
       add(texel, volume_pl);
@@ -100,9 +105,7 @@ void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int
       ledger_.drained_pl += volume_pl;
     return;
   }
-  const int64_t each = volume_pl / static_cast<int64_t>(count);
-  for (size_t i = 0; i < count; ++i)
-    add(texels[i], i == 0 ? volume_pl - each * static_cast<int64_t>(count - 1) : each);
+  for (size_t i = 0; i < to.count; ++i) add(to.texels[i], to.share(i, volume_pl));
 }
 
 void FilmLink::take(int texel, double share, uint32_t slot, uint32_t life) {
@@ -125,8 +128,15 @@ void FilmLink::addToRidge(int segment, int64_t volume_pl) {
   ledger_.wiped_pl += volume_pl - fits;  // a blade throws off what it cannot hold
 }
 
-void FilmLink::sweep(const SweepOrder& sweep) {
-  if (attached_ && sweep.count > 0) order_.sweeps.push_back(sweep);
+void FilmLink::sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept,
+                     const std::vector<shared::SweptRange>& ranges, int first_piece, bool backwards) {
+  if (!attached_) return;
+  for (auto part = ranges.begin(); part != ranges.end(); part += shared::kBladeSegments) {
+    const auto end = part + shared::kBladeSegments;
+    if (std::all_of(part, end, [](const shared::SweptRange& range) { return range.count == 0; })) continue;
+    order_.sweeps.push_back({swept, static_cast<int>(order_.sweep_ranges.size()), first_piece, backwards});
+    order_.sweep_ranges.insert(order_.sweep_ranges.end(), part, end);
+  }
 }
 
 void FilmLink::leave(int segment, const std::vector<int>& texels) {

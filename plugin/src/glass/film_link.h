@@ -21,6 +21,18 @@ struct Taker {
   int texel = 0;
 };
 
+// Texels about a place.
+struct Footprint {
+  static constexpr int kFarthest = 8;
+  std::array<int, (2 * kFarthest + 1) * (2 * kFarthest + 1)> texels;
+  size_t count = 0;
+  // Of a volume that is shared out among them, to the last picolitre.
+  int64_t share(size_t i, int64_t volume_pl) const {
+    const auto each = volume_pl / static_cast<int64_t>(count);
+    return i == 0 ? volume_pl - each * static_cast<int64_t>(count - 1) : each;
+  }
+};
+
 class FilmLink {
  public:
   FilmLink(const PaneMap& map, Ledger& ledger);
@@ -32,11 +44,14 @@ class FilmLink {
   // Gives water to a texel, or evenly to those within a radius (real metres, `metres` real for a grid metre).
   // Places off the pane get none of it.
   void add(int texel, int64_t volume_pl);
+  Footprint within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m) const;
   void spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl);
   // Asks for a share of what is on a texel; the report brings it. The first to ask in a step gets it.
   void take(int texel, double share, uint32_t slot, uint32_t life);
   void addToRidge(int segment, int64_t volume_pl);
-  void sweep(const SweepOrder& sweep);
+  // A blade sweeps what lies in `ranges` of its list: one for each piece, and as often as a texel may be met.
+  void sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept,
+             const std::vector<shared::SweptRange>& ranges, int first_piece, bool backwards);
   // A ridge's water goes to these texels; to none: off the glass.
   void leave(int segment, const std::vector<int>& texels);
 

@@ -19,11 +19,12 @@ inline constexpr int kRidgePieces = shared::kMaxGlassWipers * shared::kBladeSegm
 inline constexpr size_t kMostTakes =
     4096;  // of a step; drops that come later run over the film without taking it
 
-// A blade's way in terms of its list of swept texels.
+// A blade's way in terms of its list of swept texels; no texel twice.
 struct SweepOrder {
   std::shared_ptr<const std::vector<shared::SweptTexel>> swept;
-  int first = 0, count = 0;
-  int residual_pl = 0;
+  int first_range = 0;     // of the order's ranges, one for each piece of the blade
+  int first_piece = 0;     // of the ridges
+  bool backwards = false;  // towards lesser angles
 };
 
 // Order of work in a step: takes, adds, ridge adds, sweeps one after the other, leaves, flow.
@@ -34,6 +35,7 @@ struct FilmOrder {
   std::vector<shared::FilmAdd> adds;
   std::vector<shared::RidgeAdd> ridge_adds;
   std::vector<SweepOrder> sweeps;
+  std::vector<shared::SweptRange> sweep_ranges;
   std::vector<shared::RidgeLeave> leaves;
   std::vector<int> leave_texels;
   std::vector<shared::vec4> drive;  // per node, see ForceField::filmDrive

@@ -22,6 +22,7 @@ constexpr size_t kSeenDropBytes = 112;   // shaders/optics/seen_drop.glsl
 constexpr int kPlaceGroup = 64;          // drops in a group of look_place.comp
 constexpr float kCoarseTexel_px = 6.0f;  // a film of larger texels would show facets
 constexpr float kFineRadius_px = 3.0f;
+constexpr float kSteepestRidge_rad = 1.4f;
 
 const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
 const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"};
@@ -40,8 +41,14 @@ struct FrameBlock {
   uint32_t depth_seen;
   uint32_t srgb, internal_reflections, dry_reflection;
   float film_unit_m3;
+  int32_t blade_count;
+  float ridge_tan_contact;
+  float unused[2];
+  struct Blade {
+    glm::vec4 middle_length, along_first, ahead;
+  } blades[shared::kMaxGlassWipers];
 };
-static_assert(sizeof(FrameBlock) == 400, "std140 lays it out so");
+static_assert(sizeof(FrameBlock) == 416 + 48 * shared::kMaxGlassWipers, "std140 lays it out so");
 
 glm::mat4 rotationOf(const glm::dmat4& m) { return glm::mat4(glm::dmat4(glm::dmat3(m))); }
 
@@ -150,6 +157,13 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.internal_reflections = static_cast<uint32_t>(std::clamp(settings.internal_reflections, 0, 6));
   block.dry_reflection = settings.dry_reflection;
   block.film_unit_m3 = pane.film_unit_m3;
+  block.ridge_tan_contact = std::tan(std::min(pane.ridge_contact_rad, kSteepestRidge_rad));
+  for (const LookBlade& blade : pane.blades) {
+    if (pane.film == 0 || block.blade_count == shared::kMaxGlassWipers) break;
+    block.blades[block.blade_count++] = {glm::vec4(blade.middle_m, blade.blade_m),
+                                         glm::vec4(blade.along, static_cast<float>(blade.first_piece)),
+                                         glm::vec4(blade.ahead, 0.0f)};
+  }
   frame_block.write(0, &block, sizeof(block));
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block.name());
 }
@@ -210,6 +224,7 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen : no_film.name());
   gl.BindSampler(kFirst, smooth.name());
   gl.BindSampler(kPicture, stepped.name());  // one mip level: a quarter of the pass cheaper
+  if (!pane.blades.empty()) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, pane.ridge_buffer);
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
   mesh_layout.bindIndices(pane.index_buffer);
   gl.BindVertexArray(mesh_layout.name());

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "shared/glass_types.glsl"
 
@@ -47,6 +48,15 @@ struct LookLight {
                              // is on: 1 = no cabin there
 };
 
+// A blade that pushes a ridge of water over the pane, vehicle frame.
+struct LookBlade {
+  glm::vec3 middle_m{0.0f};
+  glm::vec3 along{0.0f};  // unit, from the blade's first piece to its last
+  glm::vec3 ahead{0.0f};  // unit, across it, where the ridge is
+  float blade_m = 0.0f;
+  int32_t first_piece = 0;  // of `ridge_buffer`, of shared::kBladeSegments
+};
+
 // A pane as it is to be seen. GL names are borrowed for the call.
 struct LookPane {
   glm::dmat4 worldFromVehicle{1.0};
@@ -68,6 +78,9 @@ struct LookPane {
                        // likewise carried on
   uint32_t film = 0;   // R32I volume in each texel in units of film_unit_m3, < 0 off the pane; 0: no film
   float film_unit_m3 = shared::kPicolitre_m3;
+  std::vector<LookBlade> blades;  // at most shared::kMaxGlassWipers
+  uint32_t ridge_buffer = 0;      // int32_t volume of each piece, in units of film_unit_m3
+  float ridge_contact_rad = 0.7f;
   // Drops: shared::GlassDropRecord in an SSBO. A record of seed 0 has a perfectly round outline (placed
   // drops), others their own.
   uint32_t drop_buffer = 0;

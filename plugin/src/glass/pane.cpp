@@ -9,11 +9,14 @@
 #include "glass/drops.h"
 #include "glass/film_link.h"
 #include "glass/impact.h"
+#include "glass/random.h"
+#include "glass/washer.h"
 #include "tick.h"
 
 namespace rg::glass {
 namespace {
 
+constexpr uint32_t kWashStream = 1000;        // beyond the rain's size classes
 constexpr uint32_t kRoundSeed = 0;            // the look draws it with a round outline
 constexpr size_t kMostWaiting = 4 * kTickHz;  // ticks; more is a stall
 
@@ -66,6 +69,7 @@ struct PaneSim::State {
   void run(const PaneTick& tick);
   void useReport();
   void catchRain();
+  void wash(const Washing& washing, uint32_t number);
   void closeFilmStep();
   void place(std::span<const PlacedDrop> list);
   void checkPlaces(std::span<const PlacedDrop> list) const;
@@ -99,6 +103,7 @@ void PaneSim::State::run(const PaneTick& tick) {
   forces.make(map, tick.acceleration_mps2, tick.air_mps);
   if (ticks % kTicksPerFilmStep == 0) useReport();
   catchRain();
+  for (uint32_t i = 0; i < tick.washing_count; ++i) wash(tick.washings[i], i);
   const DropWorld shared_world = world();
   drops.move(shared_world);
   drops.merge(shared_world);
@@ -113,6 +118,19 @@ void PaneSim::State::catchRain() {
   for (const Impact& impact : impacts) {
     ledger.caught_pl += impact.volume_pl;
     drops.impact(shared_world, impact);
+  }
+}
+
+// A jet hits the glass and spreads there: its water is film at once.
+void PaneSim::State::wash(const Washing& washing, uint32_t number) {
+  constexpr int64_t kParcels = 16;
+  constexpr double kSpread_m = 6e-3;  // unsourced
+  Stream random(seed, id, static_cast<uint64_t>(now.index), kWashStream + number);
+  ledger.caught_pl += washing.volume_pl;
+  for (int64_t k = 0; k < kParcels; ++k) {
+    const int64_t volume_pl = washing.volume_pl * (k + 1) / kParcels - washing.volume_pl * k / kParcels;
+    const glm::dvec2 place = map.middleOf(washing.jet->texelAt(random.unit()));
+    film.spread(place, forces.at(map, place).metres, kSpread_m, volume_pl);
   }
 }
 
@@ -257,6 +275,8 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
   if (state_->snapshot) return state_->snapshot;
   auto made = std::make_shared<PaneSnapshot>();
   made->tick = state_->now.index;
+  made->blades = state_->blades.moving();
+  made->advancing_rad = state_->surface.advancing_rad;
   made->drops.reserve(state_->drops.count());
   for (const Drop& drop : state_->drops.all()) {
     if (drop.volume_pl == 0) continue;

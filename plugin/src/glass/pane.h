@@ -46,8 +46,12 @@ struct WiperInfo {
   glm::dvec3 rest_direction{1.0, 0.0, 0.0};
   double arm_m = 0.5;  // pivot to the blade's middle
   double blade_m = 0.6;
-  double blade_angle_rad = 0.0;   // from the arm's direction to the blade's
+  double blade_angle_rad = 0.0;   // from the arm's direction to the blade's, at angle 0
   double residual_film_m = 1e-7;  // what a pass leaves
+  double blade_turn = 0.0;  // how far the blade turns on its arm for each radian of the arm: 0 rigid, -1 a
+                            // pantograph, whose blade keeps its direction on the glass
+  double wear = 0.0;        // 0 a new blade .. 1, see wear.h
+  double lift_m = 2e-3;     // drops that stand higher are cut: the blade goes through them at this height
 };
 
 // Drops of one size, as they fall.
@@ -67,6 +71,15 @@ struct WiperStroke {
   double to_rad = 0.0;
 };
 
+class Jet;
+
+// What a jet brings in a tick.
+struct Washing {
+  std::shared_ptr<const Jet> jet;
+  int64_t volume_pl = 0;
+};
+
+inline constexpr uint32_t kMostWashings = 8;
 inline constexpr int kRegionsAcross = 8;  // the pane is cut in 8 x 8 regions (of its grid) for shelter
 inline constexpr int kRegions = kRegionsAcross * kRegionsAcross;
 inline constexpr int kMaxSizeClasses = 64;
@@ -86,6 +99,8 @@ struct PaneTick {
       wet_share{};  // 0 sheltered .. 1 open to the rain, per region (see PaneMap::regionCentre)
   uint32_t wiper_count = 0;
   std::array<WiperStroke, shared::kMaxGlassWipers> wipers{};
+  uint32_t washing_count = 0;
+  std::array<Washing, kMostWashings> washings{};
 };
 
 struct PlacedDrop {
@@ -107,10 +122,20 @@ struct PaneStats {
       0;  // ticks not run because the GPU's part was not called for more than four seconds
 };
 
+// A blade on its way with a ridge before it.
+struct MovingBlade {
+  WiperInfo wiper;
+  double angle_rad = 0.0, speed_radps = 0.0;
+  double direction = 1.0;  // +1: to greater angles
+  int first_piece = 0;     // of the ridges
+};
+
 // Immutable; made after each submit that ran a tick, handed to the GL thread.
 struct PaneSnapshot {
   int64_t tick = 0;
   std::vector<shared::GlassDropRecord> drops;
+  std::vector<MovingBlade> blades;
+  double advancing_rad = 0.0;  // contact angle of what is pushed
 };
 
 // [thread: all functions may be called from any thread; the pane locks itself]

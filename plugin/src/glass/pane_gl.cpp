@@ -159,6 +159,9 @@ PaneDrawn PaneGl::drawn() const {
     out.drop_buffer = parts_->drops.name();
     out.drop_count = static_cast<int32_t>(parts_->drawn->drops.size());
     out.drop_tick = parts_->drawn->tick;
+    out.ridge_buffer = parts_->film.ridges().name();
+    out.blades = parts_->drawn->blades;
+    out.advancing_rad = parts_->drawn->advancing_rad;
   }
   return out;
 }

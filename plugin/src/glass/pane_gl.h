@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "glass/pane.h"
@@ -41,7 +42,10 @@ struct PaneDrawn {
   float texel_m = 0.0f;      // grid metres: uv = position_m / (texel_m * film_size)
   uint32_t drop_buffer = 0;  // shared::GlassDropRecord
   int32_t drop_count = 0;
-  int64_t drop_tick = 0;  // the tick the records are of
+  int64_t drop_tick = 0;                     // the tick the records are of
+  uint32_t ridge_buffer = 0;                 // int picolitres of each piece of the blades' ridges
+  std::span<const MovingBlade> blades = {};  // as at that tick, until the next step
+  double advancing_rad = 0.0;
 };
 
 // [thread: GL, context current] GL state is not restored here (the caller's guard does): touches program,

@@ -50,6 +50,14 @@ inline double capHeight(double volume_m3, double base_radius_m) {
   return std::cbrt(q + root) - std::cbrt(root - q);
 }
 
+// What of a cap stands above a height: a cap of the same sphere.
+inline double capVolumeAbove(double height_m, double base_radius_m, double above_m) {
+  const double rest_m = height_m - above_m;
+  if (rest_m <= 0.0) return 0.0;
+  const double sphere_m = (base_radius_m * base_radius_m + height_m * height_m) / (2.0 * height_m);
+  return std::numbers::pi * rest_m * rest_m * (3.0 * sphere_m - rest_m) / 3.0;
+}
+
 // Contact angle of a cap from its height and base: tan(theta / 2) = h / R.
 inline double capAngle(double height_m, double base_radius_m) {
   return 2.0 * std::atan2(height_m, base_radius_m);

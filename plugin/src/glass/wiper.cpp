@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <tuple>
+
+#include "glass/water.h"
+#include "glass/wear.h"
 
 namespace rg::glass {
 namespace {
@@ -12,104 +15,202 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 double wrapped(double angle_rad) { return angle_rad - kTurn * std::round(angle_rad / kTurn); }
 
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+glm::dvec2 direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+double bladeDirection_rad(const WiperInfo& info, double angle_rad) {
+  return info.blade_angle_rad + (1.0 + info.blade_turn) * angle_rad;
+}
+
+// Where f changes its sign between a and b: halving until doubles end.
+template <typename F>
+double root(const F& f, double a, double b) {
+  const bool rises = f(a) < 0.0;
+  for (int k = 0; k < 60 && a < b; ++k) {
+    const double middle = 0.5 * (a + b);
+    if (middle == a || middle == b) break;
+    ((f(middle) < 0.0) == rises ? a : b) = middle;
+  }
+  return b;
+}
+
 }  // namespace
 
-Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot)
+Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
     : info_(info),
       slot_(slot),
       side_(glm::cross(info.axis, info.rest_direction)),
       texel_m_(map.grid().texel_m),
-      texel_angles_(static_cast<size_t>(map.texelCount()), {1e9f, -1e9f}),
       segment_angles_(shared::kBladeSegments, {1e9, -1e9}) {
   struct Entry {
+    int pass, piece;
     double angle;
     shared::SweptTexel swept;
   };
   std::vector<Entry> entries;
+  const Wear wear(info.residual_film_m, info.blade_m, info.wear, seed);
+  int most = 1;
+  in_plane_m_.reserve(static_cast<size_t>(map.texelCount()));
   for (int i = 0; i < map.texelCount(); ++i) {
+    const glm::dvec3 place(map.texel(i).position_m);
+    in_plane_m_.emplace_back(inPlane(place));
     if (!map.inside(i)) continue;
-    // A drop in the texel may be met though its middle is not.
-    const Crossings around = crossings(glm::dvec3(map.texel(i).position_m), texel_m_);
-    for (int k = 0; k < around.count; ++k) {
-      auto& [least, most] = texel_angles_[static_cast<size_t>(i)];
-      least = std::min(least, static_cast<float>(around.angle_rad[k]));
-      most = std::max(most, static_cast<float>(around.angle_rad[k]));
-    }
-    const Crossings c = crossingsAt(glm::dvec3(map.texel(i).position_m));
+    const Crossings c = crossingsAt(place);
+    const auto area_m2 = static_cast<double>(map.texel(i).area_m2);
     for (int k = 0; k < c.count; ++k) {
-      const double angle = c.angle_rad[k];
-      entries.push_back({angle, {i, slot * shared::kBladeSegments + c.segment[k]}});
+      const shared::SweptTexel swept{i, static_cast<int>(picolitres(wear.residual_m(c.along_m[k]) * area_m2)),
+                                     static_cast<int>(picolitres(wear.smear_m() * area_m2)), 0};
+      entries.push_back({k, c.segment[k], c.angle_rad[k], swept});
       auto& [low, high] = segment_angles_[static_cast<size_t>(c.segment[k])];
-      low = std::min(low, angle);
-      high = std::max(high, angle);
+      low = std::min(low, c.angle_rad[k]);
+      high = std::max(high, c.angle_rad[k]);
     }
+    most = std::max(most, c.count);
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.angle != b.angle ? a.angle < b.angle : a.swept.texel < b.swept.texel;
+    return std::tie(a.pass, a.piece, a.angle, a.swept.texel) <
+           std::tie(b.pass, b.piece, b.angle, b.swept.texel);
   });
+  starts_.resize(static_cast<size_t>(most * shared::kBladeSegments));
   auto swept = std::make_shared<std::vector<shared::SweptTexel>>();
+  size_t piece = 0;
   for (const Entry& entry : entries) {
+    const auto of = static_cast<size_t>(entry.pass * shared::kBladeSegments + entry.piece);
+    while (piece <= of) starts_[piece++] = angles_.size();
     swept->push_back(entry.swept);
     angles_.push_back(entry.angle);
   }
+  while (piece < starts_.size()) starts_[piece++] = angles_.size();
+  starts_.push_back(angles_.size());
   swept_ = std::move(swept);
 }
 
-// The blade's points at angle t are P(s) = a e(t) + s e(t + b), |s| <= L/2, so |P|^2 = a^2 + 2 a s cos b +
-// s^2: a place at distance r is met where s = -a cos b +- sqrt(r^2 - a^2 sin^2 b), at the angle its own
-// direction has more than the point's at t = 0.
-Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m) const { return crossings(vehicle_m, 0.0); }
-
-Crossings Wiper::crossings(const glm::dvec3& vehicle_m, double beyond_end_m) const {
+glm::dvec2 Wiper::inPlane(const glm::dvec3& vehicle_m) const {
   const glm::dvec3 d = vehicle_m - info_.pivot_m;
-  const double x = glm::dot(d, info_.rest_direction), y = glm::dot(d, side_);
-  const double cos_b = std::cos(info_.blade_angle_rad), sin_b = std::sin(info_.blade_angle_rad);
-  const double under = x * x + y * y - info_.arm_m * info_.arm_m * sin_b * sin_b;
+  return {glm::dot(d, info_.rest_direction), glm::dot(d, side_)};
+}
+
+BladePose bladePose(const WiperInfo& info, double angle_rad) {
+  const glm::dvec3 side = glm::cross(info.axis, info.rest_direction);
+  const auto inVehicle = [&](const glm::dvec2& v) { return v.x * info.rest_direction + v.y * side; };
+  const glm::dvec2 along = direction(bladeDirection_rad(info, angle_rad));
+  const double with_arm = glm::dot(along, direction(angle_rad)) < 0.0 ? -1.0 : 1.0;
+  return {info.pivot_m + inVehicle(info.arm_m * direction(angle_rad)), inVehicle(along),
+          inVehicle(with_arm * glm::dvec2(-along.y, along.x))};
+}
+
+// The blade's line at angle t goes through a e(t) along e(b + (1 + k) t); a place p lies on it where
+// F(t) = e(b + (1 + k) t) x (p - a e(t)) = r sin(phi - b - (1 + k) t) + a sin(b + k t) = 0. Solved in closed
+// form for k = 0 and k = -1, else by halving between samples: F has few waves in a turn.
+std::vector<double> Wiper::anglesOf(const glm::dvec2& place_m) const {
+  const double a = info_.arm_m, b = info_.blade_angle_rad, k = info_.blade_turn;
+  const double r = glm::length(place_m), phi = std::atan2(place_m.y, place_m.x);
+  std::vector<double> out;
+  if (k == 0.0) {
+    const double under = r * r - std::pow(a * std::sin(b), 2.0);
+    if (under < 0.0) return out;
+    for (const double sign : {1.0, -1.0}) {
+      const double along = -a * std::cos(b) + sign * std::sqrt(under);
+      if (sign < 0.0 && under == 0.0) continue;
+      out.push_back(wrapped(phi - std::atan2(along * std::sin(b), a + along * std::cos(b))));
+    }
+  } else if (k == -1.0) {
+    const double share = r * std::sin(phi - b) / a;
+    if (std::abs(share) > 1.0) return out;
+    const double t = std::asin(share);
+    out = {wrapped(b + t), wrapped(b + std::numbers::pi - t)};
+  } else {
+    const auto f = [&](double t) { return r * std::sin(phi - b - (1.0 + k) * t) + a * std::sin(b + k * t); };
+    constexpr int kSamples = 64;
+    double before = f(-std::numbers::pi);
+    for (int n = 0; n < kSamples; ++n) {
+      const double from = -std::numbers::pi + kTurn * n / kSamples, to = from + kTurn / kSamples;
+      const double now = f(to);
+      if ((before < 0.0) != (now < 0.0)) out.push_back(root(f, from, to));
+      before = now;
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m, double beyond_end_m) const {
+  const glm::dvec2 place = inPlane(vehicle_m);
   Crossings out;
-  if (under < 0.0) return out;
-  const double root = std::sqrt(under);
-  for (const double sign : {1.0, -1.0}) {
-    const double s = -info_.arm_m * cos_b + sign * root;
-    if (std::abs(s) > 0.5 * info_.blade_m + beyond_end_m || (sign < 0.0 && root == 0.0)) continue;
-    out.angle_rad[out.count] = wrapped(std::atan2(y, x) - std::atan2(s * sin_b, info_.arm_m + s * cos_b));
-    const double along = (s / info_.blade_m + 0.5) * shared::kBladeSegments;
-    out.segment[out.count] = std::clamp(static_cast<int>(along), 0, shared::kBladeSegments - 1);
+  const double reach = info_.arm_m + 0.5 * info_.blade_m + beyond_end_m;
+  if (glm::dot(place, place) > reach * reach) return out;
+  for (const double angle : anglesOf(place)) {
+    const double along =
+        glm::dot(place - info_.arm_m * direction(angle), direction(bladeDirection_rad(info_, angle)));
+    if (std::abs(along) > 0.5 * info_.blade_m + beyond_end_m || out.count == Crossings::kMost) continue;
+    out.angle_rad[out.count] = angle;
+    out.along_m[out.count] = along;
+    const auto piece = static_cast<int>(std::floor((along / info_.blade_m + 0.5) * shared::kBladeSegments));
+    out.segment[out.count] = std::clamp(piece, 0, shared::kBladeSegments - 1);
     ++out.count;
   }
   return out;
 }
 
-std::pair<int, int> Wiper::range(const Sweep& sweep) const {
-  const auto index = [this](auto it) { return static_cast<int>(it - angles_.begin()); };
-  if (sweep.now_rad > sweep.before_rad) {
-    return {index(std::upper_bound(angles_.begin(), angles_.end(), sweep.before_rad)),
-            index(std::upper_bound(angles_.begin(), angles_.end(), sweep.now_rad))};
+std::vector<shared::SweptRange> Wiper::ranges(const Sweep& sweep) const {
+  const bool forward = sweep.now_rad > sweep.before_rad;
+  std::vector<shared::SweptRange> out;
+  for (size_t piece = 0; piece + 1 < starts_.size(); ++piece) {
+    const auto begin = angles_.begin() + static_cast<std::ptrdiff_t>(starts_[piece]);
+    const auto end = angles_.begin() + static_cast<std::ptrdiff_t>(starts_[piece + 1]);
+    const auto first = forward ? std::upper_bound(begin, end, sweep.before_rad)
+                               : std::lower_bound(begin, end, sweep.now_rad);
+    const auto last = forward ? std::upper_bound(first, end, sweep.now_rad)
+                              : std::lower_bound(first, end, sweep.before_rad);
+    out.push_back({static_cast<int>(first - angles_.begin()), static_cast<int>(last - first)});
   }
-  return {index(std::lower_bound(angles_.begin(), angles_.end(), sweep.now_rad)),
-          index(std::lower_bound(angles_.begin(), angles_.end(), sweep.before_rad))};
+  return out;
 }
 
-bool Wiper::mayCross(int texel, const Sweep& sweep) const {
-  const auto [least, most] = texel_angles_[static_cast<size_t>(texel)];
-  // A texel is 3 mm and the nearest blade 0.05 m from its pivot: inside it angles differ by less than 0.1
-  // rad.
-  constexpr float kInTexel_rad = 0.1f;
-  const auto low = static_cast<float>(std::min(sweep.before_rad, sweep.now_rad)) - kInTexel_rad;
-  const auto high = static_cast<float>(std::max(sweep.before_rad, sweep.now_rad)) + kInTexel_rad;
-  return least <= high && most >= low;
+// No point of the blade goes farther in a sweep than its end's turns allow.
+bool Wiper::mayCross(int texel, const Sweep& sweep, double radius_m) const {
+  const double angle = 0.5 * (sweep.before_rad + sweep.now_rad);
+  const double way_m = 0.5 * std::abs(sweep.now_rad - sweep.before_rad) *
+                       (info_.arm_m + std::abs(1.0 + info_.blade_turn) * 0.5 * info_.blade_m);
+  const double near_m = way_m + radius_m + 2.0 * texel_m_;  // from the texel's middle to anywhere in it
+  const glm::dvec2 d = glm::dvec2(in_plane_m_[static_cast<size_t>(texel)]) - info_.arm_m * direction(angle);
+  const glm::dvec2 along = direction(bladeDirection_rad(info_, angle));
+  return std::abs(cross(along, d)) <= near_m && std::abs(glm::dot(along, d)) <= 0.5 * info_.blade_m + near_m;
+}
+
+std::optional<double> Wiper::ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const {
+  const Crossings c = crossingsAt(place_m);
+  if (c.count == 0) return std::nullopt;
+  const double nearest = *std::min_element(c.angle_rad, c.angle_rad + c.count, [met_rad](double a, double b) {
+    return std::abs(a - met_rad) < std::abs(b - met_rad);
+  });
+  return sweep.now_rad > sweep.before_rad ? nearest - sweep.before_rad : sweep.before_rad - nearest;
 }
 
 std::vector<std::vector<int>> Wiper::aheadOf(double extreme_rad, double direction) const {
   constexpr size_t kEnough = 8;                          // texels for a piece's water
   const double near_rad = 2.5 * texel_m_ / info_.arm_m;  // a ridge is some millimetres wide
   std::vector<std::vector<int>> out(shared::kBladeSegments);
-  const auto [first, last] = range({extreme_rad, extreme_rad + direction * 4.0 * near_rad});
-  for (int n = 0; n < last - first; ++n) {
-    const int i = direction > 0.0 ? first + n : last - 1 - n;
-    const shared::SweptTexel& entry = (*swept_)[static_cast<size_t>(i)];
-    std::vector<int>& list = out[static_cast<size_t>(entry.segment - slot_ * shared::kBladeSegments)];
-    const bool near = std::abs(angles_[static_cast<size_t>(i)] - extreme_rad) <= near_rad;
-    if (list.size() < kEnough && (near || list.empty())) list.push_back(entry.texel);
+  const std::vector<shared::SweptRange> ranges =
+      this->ranges({extreme_rad, extreme_rad + direction * 4.0 * near_rad});
+  for (size_t n = 0; n < ranges.size(); ++n) {
+    std::vector<int>& list = out[n % shared::kBladeSegments];
+    for (int k = 0; k < ranges[n].count; ++k) {
+      const int back = direction > 0.0 ? k : ranges[n].count - 1 - k;
+      const auto i = static_cast<size_t>(ranges[n].first + back);
+      const bool near = std::abs(angles_[i] - extreme_rad) <= near_rad;
+      if (list.size() < kEnough && (near || list.empty())) list.push_back((*swept_)[i].texel);
+    }
+  }
+  // A piece may be narrower than a texel: one that meets none leaves its water with its neighbour's.
+  for (size_t piece = 0; piece + 1 < out.size(); ++piece) {
+    if (out[piece + 1].empty() && !offGlass(static_cast<int>(piece + 1), extreme_rad))
+      out[piece + 1] = out[piece];
+  }
+  for (size_t piece = out.size() - 1; piece > 0; --piece) {
+    if (out[piece - 1].empty() && !offGlass(static_cast<int>(piece - 1), extreme_rad))
+      out[piece - 1] = out[piece];
   }
   return out;
 }

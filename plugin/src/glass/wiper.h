@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,11 +12,14 @@
 
 namespace rg::glass {
 
-// Where a blade crosses a place: up to twice when the blade stands far across its arm (pantographs).
+// Where a blade crosses a place, in the order of angle: more than once when it stands far across its arm or
+// turns on it (pantographs).
 struct Crossings {
+  static constexpr int kMost = 4;
   int count = 0;
-  double angle_rad[2] = {0.0, 0.0};
-  int segment[2] = {0, 0};  // piece of the blade, 0 .. kBladeSegments - 1, counted from the pivot's side
+  double angle_rad[kMost] = {};
+  double along_m[kMost] = {};  // from the blade's middle, towards its tip
+  int segment[kMost] = {};     // piece of the blade, 0 .. kBladeSegments - 1, counted from the pivot's side
 };
 
 // One way of the blade, without reversal.
@@ -28,21 +32,35 @@ struct Sweep {
   }
 };
 
+// Where a blade lies, vehicle frame.
+struct BladePose {
+  glm::dvec3 middle_m{0.0};
+  glm::dvec3 along{0.0};   // unit, from the pivot's side to the tip
+  glm::dvec3 across{0.0};  // unit, to greater angles
+};
+BladePose bladePose(const WiperInfo& info, double angle_rad);
+
 class Wiper {
  public:
-  // `slot` is where its ridge's pieces begin: slot * kBladeSegments.
-  Wiper(const WiperInfo& info, const PaneMap& map, int slot);
+  // `slot` is where its ridge's pieces begin: slot * kBladeSegments. `seed` is of its wear.
+  Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed = 1);
 
   const WiperInfo& info() const { return info_; }
   int slot() const { return slot_; }
-  Crossings crossingsAt(const glm::dvec3& vehicle_m) const;
+  Crossings crossingsAt(const glm::dvec3& vehicle_m, double beyond_end_m = 0.0) const;
+  BladePose poseAt(double angle_rad) const { return bladePose(info_, angle_rad); }
 
-  // All (texel, piece) the blade can cross, in the order of angle. Shared with the GPU's copy of it.
+  // All texels the blade can cross: first crossings, then second ones and so on, each sorted by piece, then
+  // angle. Shared with the GPU's copy of it.
   const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept() const { return swept_; }
-  // First and one past the last entry of swept() that a sweep crosses.
-  std::pair<int, int> range(const Sweep& sweep) const;
-  // A place on this texel may be crossed: drops elsewhere need no closer look.
-  bool mayCross(int texel, const Sweep& sweep) const;
+  // What of swept() a sweep crosses: kBladeSegments ranges for first crossings, as many for second ones ...
+  std::vector<shared::SweptRange> ranges(const Sweep& sweep) const;
+  // A place that near to this texel's middle may be crossed: drops elsewhere need no closer look.
+  bool mayCross(int texel, const Sweep& sweep, double radius_m) const;
+
+  // How far the blade has to turn, from where a sweep begins that meets something at `met_rad`, to this place
+  // beside that; none: it does not come by. Less than 0: it has passed it.
+  std::optional<double> ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const;
 
   // Texels next to the blade where it turns round at `extreme_rad`, ahead of it in its old direction, for
   // each piece; none: the water leaves the glass.
@@ -51,15 +69,18 @@ class Wiper {
   bool offGlass(int segment, double angle_rad) const;
 
  private:
-  Crossings crossings(const glm::dvec3& vehicle_m, double beyond_end_m) const;
+  glm::dvec2 inPlane(const glm::dvec3& vehicle_m) const;
+  // Angles at which the blade's line, endless, passes a place of its plane.
+  std::vector<double> anglesOf(const glm::dvec2& place_m) const;
 
   WiperInfo info_;
   int slot_;
   glm::dvec3 side_{0.0};
   double texel_m_;
   std::shared_ptr<const std::vector<shared::SweptTexel>> swept_;
-  std::vector<double> angles_;                         // of swept_
-  std::vector<std::pair<float, float>> texel_angles_;  // least and most of a texel, for mayCross
+  std::vector<double> angles_;         // of swept_
+  std::vector<size_t> starts_;         // of each piece's part of swept_, pass by pass; and its end
+  std::vector<glm::vec2> in_plane_m_;  // of texels, from the pivot, for mayCross
   std::vector<std::pair<double, double>> segment_angles_;
 };
 
