@@ -10,7 +10,6 @@ namespace host::gltf {
 namespace {
 
 constexpr std::size_t kLongestLine_bytes = 500;
-constexpr std::size_t kLongestName_bytes = 63;
 
 std::string shorten(const std::string& text, std::size_t longest_bytes) {
   return text.size() <= longest_bytes ? text : text.substr(0, longest_bytes) + "...";

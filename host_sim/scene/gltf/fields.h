@@ -15,6 +15,8 @@ namespace host::gltf {
 
 using Json = nlohmann::json;
 
+constexpr std::size_t kLongestName_bytes = 63;  // of a name that is used or shown
+
 /// Throws SceneError("WHERE: WHAT") as one printable line of at most 500 bytes.
 [[noreturn]] void fail(const std::string& where, const std::string& what);
 

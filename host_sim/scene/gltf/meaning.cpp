@@ -7,7 +7,6 @@ namespace host::gltf {
 
 namespace {
 
-constexpr std::size_t kLongestName_bytes = 63;
 constexpr std::size_t kMostRouteNumbers = 3'000'000;
 constexpr double kRadPerDeg = 0.017453292519943295;
 
