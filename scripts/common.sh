@@ -39,10 +39,10 @@ ensure_packages() {
   rm -f "$log"
 }
 
-# build_preset NAME: configures (when needed) and builds.
+# build_preset NAME [TESTS]: configures (when needed) and builds, of the test programs those of a ;-list, or all.
 build_preset() {
   case "$1" in debug | release | asan | tsan) ;; *) die "no preset '$1'; there are debug, release, asan, tsan" ;; esac
-  cmake --preset "$1" >"/tmp/rainglass-configure.$$" 2>&1 || { cat "/tmp/rainglass-configure.$$" >&2; rm -f "/tmp/rainglass-configure.$$"; die "configuring $1 failed"; }
+  cmake --preset "$1" -DRG_TESTS="${2:-}" >"/tmp/rainglass-configure.$$" 2>&1 || { cat "/tmp/rainglass-configure.$$" >&2; rm -f "/tmp/rainglass-configure.$$"; die "configuring $1 failed"; }
   rm -f "/tmp/rainglass-configure.$$"
   cmake --build --preset "$1"
 }

@@ -22,7 +22,7 @@ int bestOfThree(int wanted, const std::string& arguments, std::string& table) {
   return exit_code;
 }
 
-std::string arguments(const std::string& scenario, int seconds = 3) {
+std::string arguments(const std::string& scenario, double seconds = 1.5) {
   return "--headless --size 640x360 --fps 10 --seconds " + std::to_string(seconds) + " --scenario " +
          scenario + " --budget " RG_SOURCE_DIR "/budgets.toml";
 }
