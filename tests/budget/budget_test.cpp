@@ -39,7 +39,7 @@ TEST(Budget, downpourKeepsIt) {
 
 TEST(Budget, tripsWhenTheWorkIsThreeTimesLarger) {
   std::string table;
-  EXPECT_EQ(bestOfThree(4, arguments("downpour", 1) + " --set plugin.bench.repeat=3", table), 4) << table;
+  EXPECT_EQ(bestOfThree(4, arguments("downpour", 0.6) + " --set plugin.bench.repeat=3", table), 4) << table;
   EXPECT_NE(table.find("OVER"), std::string::npos) << table;
 }
 

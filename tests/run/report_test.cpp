@@ -58,7 +58,7 @@ struct TermsTested {
 };
 const std::map<std::string, TermsTested> kTermsTested = {
     {"downpour", {2.0, {"caught_ml", "on_glass_ml", "drained_ml", "blown_ml"}}},
-    {"drying", {18.0, {"evaporated_ml"}}}};
+    {"drying", {6.0, {"evaporated_ml"}}}};
 
 TermsTested termsTestedBy(const std::string& scenario) {
   const auto found = kTermsTested.find(scenario);
