@@ -54,6 +54,8 @@ void run(uint32_t slots, int ticks, uint32_t most_ticks, double change) {
         write(slot, now + 1 + static_cast<uint32_t>(random() % (most_ticks * kTick)));
     }
   }
+  // Where all is told anew about once a tick, few live to their end: 2/3 of the slots are written in a tick,
+  // and of each entry 1 / most_ticks comes in its time. 80 in the last of the tests below, whose error is 9.
   EXPECT_GT(ended, 50u);
 }
 

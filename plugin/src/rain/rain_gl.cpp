@@ -120,7 +120,7 @@ void RainRenderer::Objects::send(std::span<const uint32_t> to, std::span<const R
                    GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-// A slot whose particle is gone counts until it is written anew.
+// A particle that is gone counts until its slot is written or emptied.
 void RainRenderer::Objects::countSolids(std::span<const uint32_t> to, std::span<const RainDrop> drops) {
   for (size_t i = 0; i < to.size(); ++i) {
     const uint32_t kind = shared::rainClassOf(drops[i]);
