@@ -4,7 +4,8 @@
 layout(std140, binding = 0) uniform StepInfo { FilmStepInfo info; };
 layout(std430, binding = 1) buffer Ridges {
   int ridge_pl[kMaxGlassWipers * kBladeSegments];
-  uint wiped_pl;                                          // thrown off so far, modulo 2^32
+  // Thrown off so far, in two parts as a tile's film is told, each modulo 2^32: a stroke in a downpour throws off more than 2^32 pl at once.
+  uint wiped_low_pl, wiped_high;
 };
 
 // Water below the pin lies still. A tile is looked at when some on it or on a tile beside it may flow, when it was given or lost water, and

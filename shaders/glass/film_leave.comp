@@ -1,4 +1,4 @@
-// Where a blade turns round its ridge stays on the glass; what has nowhere to stay is thrown off. No piece of a ridge twice in a step.
+// Where a blade turns round its ridge stays on the glass; what has nowhere to stay, or runs on over the edge, is thrown off. No piece of a ridge twice in a step.
 #include "glass/film_buffers.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Leaves { RidgeLeave leaves[]; };
@@ -11,8 +11,9 @@ void main() {
   RidgeLeave leave = leaves[i];
   int volume = passed(kLeave, ridge_pl[leave.segment]);
   ridge_pl[leave.segment] = 0;
-  if (leave.count == 0) {
-    atomicAdd(wiped_pl, uint(volume));
+  if (leave.count == 0 || volume >= leave.over_edge_pl) {
+    atomicAdd(wiped_low_pl, uint(volume) & 0xffffu);
+    atomicAdd(wiped_high, uint(volume) >> 16u);
     return;
   }
   int each = volume / leave.count;

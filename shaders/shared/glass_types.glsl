@@ -49,7 +49,8 @@ RG_SIZE(RidgeAdd, 8)
 // number (-1: none), and added_pl is added. texel < 0: the ridge of segment -1 - texel gets added_pl.
 struct FilmChange { int texel; int added_pl; int share_65536; int take; };
 RG_SIZE(FilmChange, 16)
-struct RidgeLeave { int segment; int first; int count; int unused; }; // the ridge's water goes to `count` texels of a list; 0: off the glass
+// The ridge's water goes to `count` texels of a list; where it is over_edge_pl or more, or count is 0: off the glass.
+struct RidgeLeave { int segment; int first; int count; int over_edge_pl; };
 RG_SIZE(RidgeLeave, 16)
 // Static: sorted by piece of the blade and the angle at which it crosses. What it leaves there, and what more when it drags.
 struct SweptTexel { int texel; int residual_pl; int smear_pl; int unused; };

@@ -66,7 +66,7 @@ class FilmReference {
 
   int64_t leave(const shared::RidgeLeave& leave, const glass::FilmOrder& order) {
     const int volume = std::exchange(ridge(leave.segment), 0);
-    if (leave.count == 0) return volume;
+    if (leave.count == 0 || volume >= leave.over_edge_pl) return volume;
     const int each = volume / leave.count;
     for (int k = 0; k < leave.count; ++k) {
       at(order.leave_texels[static_cast<size_t>(leave.first + k)]) +=

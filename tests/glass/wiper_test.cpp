@@ -230,7 +230,10 @@ TEST_F(Wiping, ridgeStaysWhereTheBladeTurnsRound) {
     tick.wipers[0] = {3, a, extreme, b};
     sim.tick(tick);
   };
-  stroke(rad(40), rad(70), rad(70));
+  // In half a second: a blade that went there in a tick would throw it all off.
+  constexpr int kTicks = 60;
+  for (int k = 0; k < kTicks; ++k)
+    stroke(rad(40 + 30.0 * k / kTicks), rad(40 + 30.0 * (k + 1) / kTicks), rad(40 + 30.0 * (k + 1) / kTicks));
   sim.tick(weather(0.0));
   const int64_t carried = sim.stats().ridge_pl;
   EXPECT_GT(carried, 100'000'000);

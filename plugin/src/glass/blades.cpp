@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "glass/run_on.h"
 #include "tick.h"
 
 namespace rg::glass {
@@ -38,7 +39,7 @@ void Blades::set(uint32_t id, const WiperInfo& info, const PaneMap& map, FilmLin
 void Blades::remove(uint32_t id, FilmLink& film) {
   const auto it = blades_.find(id);
   if (it == blades_.end()) return;
-  turn(film, it->second);
+  layDown(film, it->second, nullptr);
   blades_.erase(it);
 }
 
@@ -56,8 +57,9 @@ void Blades::stroke(const DropWorld& world, Drops& drops, const WiperStroke& str
       stroke.extreme_rad == stroke.to_rad ? (stroke.to_rad - stroke.from_rad) / kTickSeconds : 0.0;
   move(world, drops, blade, stroke.extreme_rad);
   move(world, drops, blade, stroke.to_rad);
+  blade.fastest_radps = std::max(blade.fastest_radps, std::abs(blade.speed_radps));
   if (stroke.from_rad == stroke.to_rad && stroke.extreme_rad == stroke.to_rad) {
-    turn(world.film, blade);  // it stopped
+    turn(world, blade);  // it stopped
   } else {
     leaveOffGlass(world.film, blade);
   }
@@ -78,7 +80,8 @@ void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_
   const Sweep sweep{blade.angle_rad, to_rad};
   if (sweep.before_rad == sweep.now_rad) return;
   const double direction = to_rad > blade.angle_rad ? 1.0 : -1.0;
-  if (blade.direction != 0.0 && direction != blade.direction) turn(world.film, blade);
+  if (blade.direction != 0.0 && direction != blade.direction) turn(world, blade);
+  if (blade.direction == 0.0) blade.began_rad = blade.angle_rad;
   blade.direction = direction;
   blade.angle_rad = to_rad;
   const Wiper& wiper = *blade.wiper;
@@ -140,12 +143,32 @@ void Blades::meet(const DropWorld& world, Drops& drops, const Wiper& wiper, cons
   if (carried_pl > 0) world.film.addToRidge(wiper.slot() * shared::kBladeSegments + c.segment[k], carried_pl);
 }
 
-// The blade turns round or stops where it is: its ridge stays there.
-void Blades::turn(FilmLink& film, Blade& blade) {
+// The blade turns round or stops where it is.
+void Blades::turn(const DropWorld& world, Blade& blade) {
+  layDown(world.film, blade, &world.surface);
+  blade.began_rad = blade.angle_rad;
+  blade.fastest_radps = 0.0;
+}
+
+// The ridge stays where the blade is, or, after a way of the blade over such a surface, runs on over the
+// pane's edge.
+void Blades::layDown(FilmLink& film, Blade& blade, const Surface* surface) {
   if (blade.direction == 0.0) return;
-  const auto ahead = blade.wiper->aheadOf(blade.angle_rad, blade.direction);
+  const Wiper& wiper = *blade.wiper;
+  const auto ahead = wiper.aheadOf(blade.angle_rad, blade.direction);
+  const double half_rad = 0.5 * std::abs(blade.angle_rad - blade.began_rad);
+  const double piece_m = wiper.info().blade_m / shared::kBladeSegments;
   for (int segment = 0; segment < shared::kBladeSegments; ++segment) {
-    film.leave(blade.wiper->slot() * shared::kBladeSegments + segment, ahead[static_cast<size_t>(segment)]);
+    int32_t over_edge_pl = kNeverRunsOn;
+    if (surface != nullptr && half_rad > 0.0) {
+      const PieceStroke stroke{half_rad * wiper.turnsAt_m(segment, blade.angle_rad),
+                               blade.fastest_radps / half_rad};
+      const double edge_m = wiper.toEdge_rad(segment, blade.angle_rad, blade.direction) *
+                            wiper.turnsAt_m(segment, blade.angle_rad);
+      over_edge_pl = leastToRunOn_pl(edge_m, piece_m, stroke, *surface);
+    }
+    film.leave(wiper.slot() * shared::kBladeSegments + segment, ahead[static_cast<size_t>(segment)],
+               over_edge_pl);
   }
   blade.direction = 0.0;
 }
@@ -154,7 +177,7 @@ void Blades::turn(FilmLink& film, Blade& blade) {
 void Blades::leaveOffGlass(FilmLink& film, const Blade& blade) {
   for (int segment = 0; segment < shared::kBladeSegments; ++segment) {
     if (blade.wiper->offGlass(segment, blade.angle_rad))
-      film.leave(blade.wiper->slot() * shared::kBladeSegments + segment, {});
+      film.leave(blade.wiper->slot() * shared::kBladeSegments + segment, {}, kNeverRunsOn);
   }
 }
 

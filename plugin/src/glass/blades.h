@@ -27,10 +27,13 @@ class Blades {
     double angle_rad = 0.0;
     double direction = 0.0;  // of its last way; 0: it rests and carries nothing
     double speed_radps = 0.0;
+    double began_rad = 0.0;      // where that way began,
+    double fastest_radps = 0.0;  // and its greatest speed so far
   };
   static void move(const DropWorld& world, Drops& drops, Blade& blade, double to_rad);
   static void meet(const DropWorld& world, Drops& drops, const Wiper& wiper, const Sweep& sweep, int slot);
-  static void turn(FilmLink& film, Blade& blade);
+  static void turn(const DropWorld& world, Blade& blade);
+  static void layDown(FilmLink& film, Blade& blade, const Surface* surface);
   static void leaveOffGlass(FilmLink& film, const Blade& blade);
 
   std::map<uint32_t, Blade> blades_;

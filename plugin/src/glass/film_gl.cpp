@@ -13,7 +13,7 @@ constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is 
 constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);                // TileState in film_buffers.glsl
 constexpr std::array<uint32_t, 8> kNoneAwake{0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
-constexpr size_t kRidgeBytes = (kRidgePieces + 1) * sizeof(int32_t);
+constexpr size_t kRidgeBytes = (kRidgePieces + 2) * sizeof(int32_t);  // and two parts of what is wiped off
 
 size_t aligned(size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
 
@@ -297,7 +297,7 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   FilmReport report;
   report.step = batch.steps[index].step;
   if (batch.steps[index].asleep) {
-    if (batch.steps[index].clear) wiped_before_ = 0;
+    if (batch.steps[index].clear) wiped_before_ = {};
     report.tiles.assign(tiles_, shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
     report.taken_pl.assign(batch.steps[index].takes, 0);
     return report;
@@ -307,12 +307,14 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   report.taken_pl.resize(batch.steps[index].takes);
   if (!report.taken_pl.empty())
     std::memcpy(report.taken_pl.data(), from + at.taken, report.taken_pl.size() * sizeof(int));
-  std::vector<int32_t> ridges(kRidgePieces + 1);
+  std::vector<int32_t> ridges(kRidgePieces + 2);
   std::memcpy(ridges.data(), from + at.ridges, kRidgeBytes);
   for (size_t i = 0; i < kRidgePieces; ++i) report.ridge_pl += ridges[i];
-  const auto wiped = static_cast<uint32_t>(ridges.back());
-  if (batch.steps[index].clear) wiped_before_ = 0;
-  report.wiped_pl = static_cast<int64_t>(wiped - wiped_before_);  // modulo 2^32
+  const std::array<uint32_t, 2> wiped{static_cast<uint32_t>(ridges[kRidgePieces]),
+                                      static_cast<uint32_t>(ridges[kRidgePieces + 1])};
+  if (batch.steps[index].clear) wiped_before_ = {};
+  report.wiped_pl = static_cast<int64_t>(wiped[0] - wiped_before_[0]) +
+                    (static_cast<int64_t>(wiped[1] - wiped_before_[1]) << 16);  // both modulo 2^32
   wiped_before_ = wiped;
   const bool empty = std::all_of(report.tiles.begin(), report.tiles.end(), [](const shared::FilmTile& tile) {
     return tile.film_low_pl == 0 && tile.film_high == 0;

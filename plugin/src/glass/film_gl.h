@@ -84,7 +84,7 @@ class FilmGl {
   std::vector<Swept> swept_;
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;
-  uint32_t wiped_before_ = 0;
+  std::array<uint32_t, 2> wiped_before_{};
   bool dry_ = true;            // no water on it or in a ridge, as of the last report after it was given some
   int64_t watered_step_ = -1;  // the last that gave it some
 };

@@ -139,10 +139,10 @@ void FilmLink::sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>
   }
 }
 
-void FilmLink::leave(int segment, const std::vector<int>& texels) {
+void FilmLink::leave(int segment, const std::vector<int>& texels, int over_edge_pl) {
   if (!attached_ || std::exchange(leaving_[static_cast<size_t>(segment)], true)) return;
   order_.leaves.push_back(
-      {segment, static_cast<int>(order_.leave_texels.size()), static_cast<int>(texels.size()), 0});
+      {segment, static_cast<int>(order_.leave_texels.size()), static_cast<int>(texels.size()), over_edge_pl});
   order_.leave_texels.insert(order_.leave_texels.end(), texels.begin(), texels.end());
 }
 

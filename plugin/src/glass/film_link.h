@@ -52,8 +52,8 @@ class FilmLink {
   // A blade sweeps what lies in `ranges` of its list: one for each piece, and as often as a texel may be met.
   void sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept,
              const std::vector<shared::SweptRange>& ranges, int first_piece, bool backwards);
-  // A ridge's water goes to these texels; to none: off the glass.
-  void leave(int segment, const std::vector<int>& texels);
+  // A ridge's water goes to these texels; to none, or when it is so much: off the glass.
+  void leave(int segment, const std::vector<int>& texels, int over_edge_pl);
 
   // Closes the step's order and queues it for the GPU.
   void close(int64_t step, std::vector<shared::vec4> drive, const shared::FilmStepInfo& info);

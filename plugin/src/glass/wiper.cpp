@@ -221,4 +221,16 @@ bool Wiper::offGlass(int segment, double angle_rad) const {
   return angle_rad < low - margin || angle_rad > high + margin;
 }
 
+double Wiper::toEdge_rad(int segment, double angle_rad, double direction) const {
+  const auto [low, high] = segment_angles_[static_cast<size_t>(segment)];
+  return direction > 0.0 ? high - angle_rad : angle_rad - low;
+}
+
+// The derivative of a e(t) + s e(b + (1 + k) t).
+double Wiper::turnsAt_m(int segment, double angle_rad) const {
+  const double along_m = ((segment + 0.5) / shared::kBladeSegments - 0.5) * info_.blade_m;
+  return glm::length(info_.arm_m * direction(angle_rad) +
+                     (1.0 + info_.blade_turn) * along_m * direction(bladeDirection_rad(info_, angle_rad)));
+}
+
 }  // namespace rg::glass

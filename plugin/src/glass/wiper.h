@@ -67,6 +67,10 @@ class Wiper {
   std::vector<std::vector<int>> aheadOf(double extreme_rad, double direction) const;
   // The piece is not over the pane at this angle.
   bool offGlass(int segment, double angle_rad) const;
+  // How far a piece has still to turn until it has left the glass; < 0: it has.
+  double toEdge_rad(int segment, double angle_rad, double direction) const;
+  // Way of a piece's middle for each radian that the arm turns.
+  double turnsAt_m(int segment, double angle_rad) const;
 
  private:
   glm::dvec2 inPlane(const glm::dvec3& vehicle_m) const;
