@@ -46,10 +46,11 @@ T readStruct(const T* in, const char* name, T preset = T{}) {
   return preset;
 }
 
-// Element i of an array with a stride in bytes.
+// Element i of an array with a stride in bytes; checkArray has seen that all its elements are aligned.
 template <typename T>
 const T* element(const T* items, size_t stride, size_t i) {
-  return reinterpret_cast<const T*>(reinterpret_cast<const unsigned char*>(items) + i * stride);
+  const void* at = reinterpret_cast<const unsigned char*>(items) + i * stride;
+  return static_cast<const T*>(at);
 }
 
 void checkArray(const void* items, uint64_t count, size_t stride, size_t element_size, size_t alignment,
