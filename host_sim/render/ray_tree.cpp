@@ -69,6 +69,7 @@ std::uint32_t RayTree::build(std::uint32_t first, std::uint32_t count, std::vect
     build(first, count / 2, order, corners);
     box.first = build(first + count / 2, count - count / 2, order, corners);
     box.count = 0;
+    box.axis = axis;
   }
   boxes_[self] = box;
   return self;
@@ -84,8 +85,10 @@ float RayTree::nearest(glm::vec3 from, glm::vec3 direction, float reach_m) const
     const Box& box = boxes_[index];
     if (!meetsBox(box.min, box.max, from, inverse, reach_m)) continue;
     if (box.count == 0) {
-      stack[depth++] = index + 1;
-      stack[depth++] = box.first;
+      // The nearer child is looked into first: what it holds shortens the ray for the other.
+      const bool first_is_near = direction[box.axis] > 0.0F;
+      stack[depth++] = first_is_near ? box.first : index + 1;
+      stack[depth++] = first_is_near ? index + 1 : box.first;
       continue;
     }
     for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {

@@ -23,6 +23,7 @@ class RayTree {
     glm::vec3 min{1e30F}, max{-1e30F};
     std::uint32_t first = 0;  ///< triangle, or of an inner box the second child (the first follows it)
     std::uint32_t count = 0;  ///< triangles, 0: an inner box
+    int axis = 0;             ///< along which an inner box is divided, its first child lower
   };
   std::uint32_t build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order,
                       const std::vector<glm::vec3>& corners);

@@ -23,8 +23,8 @@ int bestOfThree(int wanted, const std::string& arguments, std::string& table) {
 }
 
 std::string arguments(const std::string& scenario, double seconds = 1.5) {
-  return "--headless --size 640x360 --fps 10 --seconds " + std::to_string(seconds) + " --scenario " +
-         scenario + " --budget " RG_SOURCE_DIR "/budgets.toml";
+  return "--headless --size 640x360 --fps 10 --set prewarm_s=3 --seconds " + std::to_string(seconds) +
+         " --scenario " + scenario + " --budget " RG_SOURCE_DIR "/budgets.toml";
 }
 
 TEST(Budget, driveKeepsIt) {

@@ -87,10 +87,11 @@ void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_
   const Wiper& wiper = *blade.wiper;
   world.film.sweep(wiper.swept(), wiper.ranges(sweep), wiper.slot() * shared::kBladeSegments,
                    direction < 0.0);
+  const SweptStrip strip = wiper.stripOf(sweep);
   const std::vector<Drop>& all = drops.all();
   for (size_t slot = 0; slot < all.size(); ++slot) {
     const Drop& drop = all[slot];
-    if (drop.volume_pl > 0 && wiper.mayCross(drop.texel, sweep, static_cast<double>(drop.base_radius_m)))
+    if (drop.volume_pl > 0 && wiper.mayCross(drop.texel, strip, static_cast<double>(drop.base_radius_m)))
       meet(world, drops, wiper, sweep, static_cast<int>(slot));
   }
 }

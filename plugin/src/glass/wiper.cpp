@@ -169,14 +169,21 @@ std::vector<shared::SweptRange> Wiper::ranges(const Sweep& sweep) const {
 }
 
 // No point of the blade goes farther in a sweep than its end's turns allow.
-bool Wiper::mayCross(int texel, const Sweep& sweep, double radius_m) const {
+SweptStrip Wiper::stripOf(const Sweep& sweep) const {
   const double angle = 0.5 * (sweep.before_rad + sweep.now_rad);
   const double way_m = 0.5 * std::abs(sweep.now_rad - sweep.before_rad) *
                        (info_.arm_m + std::abs(1.0 + info_.blade_turn) * 0.5 * info_.blade_m);
-  const double near_m = way_m + radius_m + 2.0 * texel_m_;  // from the texel's middle to anywhere in it
-  const glm::dvec2 d = glm::dvec2(in_plane_m_[static_cast<size_t>(texel)]) - info_.arm_m * direction(angle);
-  const glm::dvec2 along = direction(bladeDirection_rad(info_, angle));
-  return std::abs(cross(along, d)) <= near_m && std::abs(glm::dot(along, d)) <= 0.5 * info_.blade_m + near_m;
+  return {.middle_m = info_.arm_m * direction(angle),
+          .along = direction(bladeDirection_rad(info_, angle)),
+          .half_m = 0.5 * info_.blade_m,
+          .near_m = way_m + 2.0 * texel_m_};  // from the texel's middle to anywhere in it
+}
+
+bool Wiper::mayCross(int texel, const SweptStrip& strip, double radius_m) const {
+  const double near_m = strip.near_m + radius_m;
+  const glm::dvec2 d = glm::dvec2(in_plane_m_[static_cast<size_t>(texel)]) - strip.middle_m;
+  return std::abs(cross(strip.along, d)) <= near_m &&
+         std::abs(glm::dot(strip.along, d)) <= strip.half_m + near_m;
 }
 
 std::optional<double> Wiper::ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const {

@@ -40,6 +40,14 @@ struct BladePose {
 };
 BladePose bladePose(const WiperInfo& info, double angle_rad);
 
+// What a blade passes over in one sweep lies within near_m of this line.
+struct SweptStrip {
+  glm::dvec2 middle_m{0.0};  // in the plane of Wiper::inPlane
+  glm::dvec2 along{0.0};     // unit
+  double half_m = 0.0;
+  double near_m = 0.0;
+};
+
 class Wiper {
  public:
   // `slot` is where its ridge's pieces begin: slot * kBladeSegments. `seed` is of its wear.
@@ -55,8 +63,9 @@ class Wiper {
   const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept() const { return swept_; }
   // What of swept() a sweep crosses: kBladeSegments ranges for first crossings, as many for second ones ...
   std::vector<shared::SweptRange> ranges(const Sweep& sweep) const;
+  SweptStrip stripOf(const Sweep& sweep) const;
   // A place that near to this texel's middle may be crossed: drops elsewhere need no closer look.
-  bool mayCross(int texel, const Sweep& sweep, double radius_m) const;
+  bool mayCross(int texel, const SweptStrip& strip, double radius_m) const;
 
   // How far the blade has to turn, from where a sweep begins that meets something at `met_rad`, to this place
   // beside that; none: it does not come by. Less than 0: it has passed it.
