@@ -174,6 +174,16 @@ void readParameters(Reader& top, Scenario& s) {
   walk(walk, *section.table(), "");
 }
 
+void readGlass(Reader& top, Scenario& s) {
+  if (top.find("glass") == nullptr) return;
+  const std::string name = top.text("glass", "");
+  const auto found =
+      std::ranges::find_if(kGlassSurfaces, [&](const auto& surface) { return name == surface.first; });
+  if (found == kGlassSurfaces.end())
+    top.refuse("glass", "\"" + name + "\" is none of uncoated, dirty, coated, new_coating");
+  s.glass = found->second;
+}
+
 std::filesystem::path modelPath(const std::string& text, const std::filesystem::path& root) {
   if (text.empty()) return {};
   const std::filesystem::path path(text);
@@ -236,9 +246,8 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   s.prewarm_s = top.number("prewarm_s", 0.0, 0.0, 600.0);
   s.seed = static_cast<uint64_t>(top.number("seed", 1.0, 0.0, 9e15));
   s.camera = top.text("camera", "cockpit");
-  if (std::ranges::find(kCameras, s.camera) == std::end(kCameras))
-    top.refuse("camera", "\"" + s.camera + "\" is none of cockpit, bumper, outside, front, side, free");
   if (top.find("white_cd_m2") != nullptr) s.white_cd_m2 = top.number("white_cd_m2", 0.0, 1e-3, 1e9);
+  readGlass(top, s);
   s.headlights = top.flag("headlights", true);
   s.shelter = top.flag("shelter", true);
   Reader models = top.section("models");

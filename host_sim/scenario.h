@@ -11,6 +11,7 @@
 #include "drive/curve.h"
 #include "drive/driver.h"
 #include "drive/wiper_control.h"
+#include "scene/meaning.h"
 
 namespace host {
 
@@ -42,17 +43,16 @@ struct Scenario {
   double sun_azimuth_deg = 140.0;
   std::vector<WiperSwitch> wipers;
   double wiper_pause_s = kIntermittentPause_s;
-  std::vector<double> washes;  // seconds
-  std::string camera = "cockpit";
+  std::vector<double> washes;      // seconds
+  std::string camera = "cockpit";  // see cameraNames() in simulation.h
   // Luminance that is white in a picture of fixed exposure without tone curve, as a camera takes it; none:
   // the driver's eye adapts.
   std::optional<double> white_cd_m2;
+  std::optional<GlassSurface> glass;  // of all panes, instead of what the car's model says
   bool headlights = true;
   bool shelter = true;  // false: the plugin is told of no volume, and it rains through roofs
   std::vector<std::pair<std::string, double>> parameters;  // the plugin's, by name
 };
-
-inline constexpr const char* kCameras[] = {"cockpit", "bumper", "outside", "front", "side", "free"};
 
 // NAME (scenarios/NAME.toml below `root`) or FILE; `changes` are "path.to.key=value" with TOML values (bare
 // words are taken as strings).

@@ -21,6 +21,8 @@ constexpr double kChaseBehind_m = 6.5, kChaseUp_m = 2.3;
 // Just before the nose of a car of usual length (4.3 m), at a seated driver's height: the world without
 // glass.
 const glm::dvec3 kBumper_m(3.6, 0.0, 1.2);
+constexpr double kNear_m = 0.05;         // nothing of a car is as close to the cameras above
+constexpr double kNearOfLens_m = 0.005;  // the glass of a camera of the car's own may be
 
 std::vector<glm::dvec3> routePoints(const RoadView& road) {
   if (!road.route) return {glm::dvec3(0.0), glm::dvec3(10000.0, 0.0, 0.0)};
@@ -31,7 +33,20 @@ glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm
   return glm::lookAt(eye, eye + forward, up);
 }
 
+const CameraView* cameraOf(const CarView& car, const std::string& name) {
+  const auto found = std::ranges::find(car.cameras, name, &CameraView::name);
+  return found == car.cameras.end() ? nullptr : &*found;
+}
+
 }  // namespace
+
+std::vector<std::string> cameraNames(const CarView& car) {
+  std::vector<std::string> names{"cockpit", "bumper", "outside", "front", "side", "free"};
+  for (const CameraView& camera : car.cameras) {  // one of the same name takes its place
+    if (std::ranges::find(names, camera.name) == names.end()) names.push_back(camera.name);
+  }
+  return names;
+}
 
 Simulation::Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin,
                        glm::ivec2 size_px)
@@ -43,6 +58,12 @@ Simulation::Simulation(const Scenario& scenario, const CarView& car, const RoadV
       route_(routePoints(road), road.route && road.route->closed),
       driver_(route_, scenario.plan),
       prewarm_ns_(static_cast<int64_t>(std::ceil(scenario.prewarm_s)) * 1'000'000'000) {
+  const std::vector<std::string> names = cameras();
+  if (std::ranges::find(names, camera) == names.end()) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    throw InputError("camera \"" + camera + "\" is none of " + all);
+  }
   // As if it had rained for ten minutes as it does at the start.
   water_on_road_mm_ = std::min(kMostOnRoad_mm, scenario.rain_mm_h.at(0.0) / 6.0);
   free_camera.position_m = driver_.state().position_m + glm::dvec3(-8.0, 3.0, 2.5);
@@ -174,10 +195,18 @@ rg_view Simulation::pluginViewAt(int64_t time_ns) const { return viewOf(carAt(ti
 
 Eye Simulation::eyeOf(const CarState& car) const {
   Eye eye;
-  double fov_rad = 1.05;
+  double fov_rad = 1.05, near_m = kNear_m;
   const auto toWorld = [&](const glm::dvec3& v) { return car.position_m + car.orientation * v; };
   glm::dvec3 forward, up = car.orientation * glm::dvec3(0.0, 0.0, 1.0);
-  if (camera == "cockpit") {
+  if (const CameraView* own = cameraOf(car_, camera)) {
+    const auto yaw = static_cast<double>(own->yaw_rad), pitch = static_cast<double>(own->pitch_rad);
+    eye.position_m = toWorld(glm::dvec3(own->position_m));
+    forward = car.orientation *
+              glm::dvec3(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch));
+    fov_rad = static_cast<double>(own->fov_rad);
+    eye.inside = own->inside;
+    near_m = kNearOfLens_m;
+  } else if (camera == "cockpit") {
     const double pitch = static_cast<double>(car_.eye.pitch_rad);
     eye.position_m = toWorld(glm::dvec3(car_.eye.position_m));
     forward = car.orientation * glm::dvec3(std::cos(pitch), 0.0, std::sin(pitch));
@@ -208,7 +237,7 @@ Eye Simulation::eyeOf(const CarState& car) const {
                                       : car.velocity_mps + glm::cross(car.angular_velocity_radps,
                                                                       eye.position_m - car.position_m);
   eye.view.eye_from_world = lookAlong(eye.position_m, forward, up);
-  eye.view.projection = reversedPerspective(fov_rad, size_px_);
+  eye.view.projection = reversedPerspective(fov_rad, size_px_, near_m);
   return eye;
 }
 

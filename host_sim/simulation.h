@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drive/driver.h"
 #include "drive/rain_sensor.h"
@@ -49,8 +50,12 @@ struct Overrides {
   std::optional<Controls> controls;
 };
 
+// What `camera` of a scenario may be: the host's own, then the car's.
+std::vector<std::string> cameraNames(const CarView& car);
+
 class Simulation {
  public:
+  // Throws InputError when the scenario's camera is none of cameraNames().
   Simulation(const Scenario& scenario, const CarView& car, const RoadView& road, RainPlugin& plugin,
              glm::ivec2 size_px);
 
@@ -79,6 +84,7 @@ class Simulation {
   void wash();
   void resize(glm::ivec2 size_px) { size_px_ = size_px; }
   Driver& driver() { return driver_; }
+  std::vector<std::string> cameras() const { return cameraNames(car_); }
   double timeS() const;
 
  private:

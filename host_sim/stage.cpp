@@ -74,6 +74,9 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
       road_scene_(std::move(models.road)) {
   if (car_scene_) car_ = carView(*car_scene_);
   if (road_scene_) road_ = roadView(*road_scene_);
+  if (scenario.glass) {
+    for (PaneView& pane : car_.panes) pane.glass = *scenario.glass;
+  }
   if (!scenario.shelter) {
     car_.shelters.clear();
     road_.shelters.clear();

@@ -1,6 +1,7 @@
 #pragma once
 // What a node means to Rainglass: extras.rainglass, as models/README.md has it. Angles are in radians here.
 
+#include <array>
 #include <glm/glm.hpp>
 #include <string>
 #include <variant>
@@ -9,6 +10,11 @@
 namespace host {
 
 enum class GlassSurface { Uncoated, Dirty, Coated, NewCoating };
+inline constexpr std::array<std::pair<const char*, GlassSurface>, 4> kGlassSurfaces = {
+    {{"uncoated", GlassSurface::Uncoated},
+     {"dirty", GlassSurface::Dirty},
+     {"coated", GlassSurface::Coated},
+     {"new_coating", GlassSurface::NewCoating}}};
 enum class LightRole { Head, Tail, Brake, Indicator, Street, Interior };
 
 struct PaneMeaning {
@@ -36,6 +42,14 @@ struct EyeMeaning {
   float fov_rad = 1.0471976F;  ///< horizontal
 };
 
+struct CameraMeaning {
+  std::string name;
+  float yaw_rad = 0.0F;        ///< to the left positive, from the car's forward direction
+  float pitch_rad = 0.0F;      ///< up positive
+  float fov_rad = 1.0471976F;  ///< horizontal
+  bool inside = false;         ///< within the cabin
+};
+
 struct RouteMeaning {
   std::vector<glm::vec3> points_m;  ///< in the node's own axes
   bool closed = false;
@@ -59,7 +73,8 @@ struct MirrorMeaning {
 };
 
 /// monostate: an ordinary node.
-using Meaning = std::variant<std::monostate, PaneMeaning, ShelterMeaning, WiperMeaning, EyeMeaning,
-                             RouteMeaning, LightMeaning, WheelMeaning, SteeringWheelMeaning, MirrorMeaning>;
+using Meaning =
+    std::variant<std::monostate, PaneMeaning, ShelterMeaning, WiperMeaning, EyeMeaning, CameraMeaning,
+                 RouteMeaning, LightMeaning, WheelMeaning, SteeringWheelMeaning, MirrorMeaning>;
 
 }  // namespace host

@@ -136,6 +136,10 @@ void readParts(const Scene& scene, const glm::mat4& frame, CarView& car) {
   eachMeaning<EyeMeaning>(scene, [&](int, const Node& node, const EyeMeaning& eye) {
     car.eye = {origin(frame * node.scene_from_node), eye.pitch_rad, eye.fov_rad, true};
   });
+  eachMeaning<CameraMeaning>(scene, [&](int, const Node& node, const CameraMeaning& camera) {
+    car.cameras.push_back({camera.name, origin(frame * node.scene_from_node), camera.yaw_rad,
+                           camera.pitch_rad, camera.fov_rad, camera.inside});
+  });
   eachMeaning<WheelMeaning>(scene, [&](int index, const Node& node, const WheelMeaning& wheel) {
     const glm::mat4 matrix = frame * node.scene_from_node;
     car.wheels.push_back({index, origin(matrix), unitAxis(matrix, 0), wheel.radius_m, wheel.steers});

@@ -58,6 +58,15 @@ struct EyeView {
   bool given = false;  ///< false: the file has no eye, the default stands
 };
 
+struct CameraView {
+  std::string name;
+  glm::vec3 position_m{0.0F};
+  float yaw_rad = 0.0F;  ///< to the left, from the car's forward direction
+  float pitch_rad = 0.0F;
+  float fov_rad = 1.0471976F;
+  bool inside = false;  ///< within the cabin
+};
+
 /// A node with a light role: a punctual light (light >= 0) or a glowing mesh (light < 0, at the middle of its
 /// mesh).
 struct LampView {
@@ -95,6 +104,7 @@ struct CarView {
   std::vector<ShelterView> shelters;
   std::vector<WiperView> wipers;
   EyeView eye;
+  std::vector<CameraView> cameras;
   std::vector<LampView> lamps;
   std::vector<WheelView> wheels;
   std::optional<SteeringWheelView> steering_wheel;

@@ -151,9 +151,9 @@ void Pilot::giveBack() {
 }
 
 void Pilot::nextCamera() {
-  const auto now = std::ranges::find(kCameras, sim_.camera);
-  const auto next = now + 1 == std::end(kCameras) ? std::begin(kCameras) : now + 1;
-  const std::string name(*next);
+  const std::vector<std::string> names = sim_.cameras();
+  const auto now = static_cast<size_t>(std::ranges::find(names, sim_.camera) - names.begin());
+  const std::string& name = names[(now + 1) % names.size()];
   if (name == "free") placeFree(sim_.free_camera, sim_.eyeAt(static_cast<int64_t>(sim_.timeS() * 1e9)));
   sim_.camera = name;
 }

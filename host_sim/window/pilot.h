@@ -16,7 +16,7 @@ struct KeyHelp {
 inline constexpr KeyHelp kKeyHelp[] = {
     {"arrows", "take the wheel: accelerate, brake, steer"},
     {"Backspace", "give it back"},
-    {"C", "next camera: cockpit, bumper, outside, front, side, free"},
+    {"C", "next camera: cockpit, bumper, outside, front, side, free, the car's own"},
     {"W A S D Q E", "move the free camera; drag to look round"},
     {"R, Shift R", "more, less rain"},
     {"N", "what falls: rain, snow, hail in turn"},

@@ -14,6 +14,7 @@ import bpy  # noqa: E402
 
 import car_body  # noqa: E402
 import car_cabin  # noqa: E402
+import car_camera  # noqa: E402
 import car_controls  # noqa: E402
 import car_dash  # noqa: E402
 import car_glass  # noqa: E402
@@ -30,7 +31,7 @@ def main(out):
     car_glass.make_panes(material)
     hull = car_glass.make_shelter(material)
     wipers = car_wiper.make_wipers(material)
-    for part in (car_body, car_wheel, car_cabin, car_dash, car_controls, car_seat):
+    for part in (car_body, car_wheel, car_cabin, car_dash, car_controls, car_seat, car_camera):
         part.make(material)
     place(bpy.data.objects.new("eye", None), car_shape.EYE, rainglass={"type": "eye", "pitch_deg": -3.0, "fov_deg": 74.0})
     print("\n".join(car_wiper.report(wipers) + car_glass.report_shelter(*hull)))
@@ -53,8 +54,9 @@ def correct_booleans(path):
     document = json.loads(data[20:20 + size])
     for node in document["nodes"]:
         said = node.get("extras", {}).get("rainglass", {})
-        if "steers" in said:
-            said["steers"] = bool(said["steers"])
+        for key in ("steers", "inside"):
+            if key in said:
+                said[key] = bool(said[key])
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     rest = data[20 + size:]

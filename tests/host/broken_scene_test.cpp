@@ -308,6 +308,21 @@ const std::vector<Break> kBreaks = {
        meaning(g, 9) = {{"type", "eye"}};
      },
      "node 9 \"steering\": extras.rainglass: there is another eye"},
+    {"cameraTwice",
+     [](Gltf& g) {
+       meaning(g, 5) = meaning(g, 9) = {{"type", "camera"}, {"name", "lens"}};
+     },
+     "node 9 \"steering\": extras.rainglass.name: there is a camera \"lens\" already"},
+    {"cameraWithoutName",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "camera"}};
+     },
+     "node 5 \"eye\": extras.rainglass.name"},
+    {"cameraLooksFarRound",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "camera"}, {"name", "lens"}, {"yaw_deg", 270}};
+     },
+     "node 5 \"eye\": extras.rainglass.yaw_deg is 270, must be -180..180"},
     {"fovTooWide", [](Gltf& g) { meaning(g, 5)["fov_deg"] = 180; },
      "node 5 \"eye\": extras.rainglass.fov_deg is 180, must be 20..120"},
     {"routeOfOnePoint",

@@ -220,7 +220,7 @@ TEST(Scenario, wrongInputIsNamedInOneLine) {
                                                         {"weather.hail_mm_h=nan", "hail_mm_h"},
                                                         {"weather.reign=1", "reign"},
                                                         {"wipers=3", "wipers"},
-                                                        {"camera=moon", "camera"},
+                                                        {"glass=jam", "glass"},
                                                         {"seconds=-4", "seconds"},
                                                         {"white_cd_m2=0", "white_cd_m2"},
                                                         {"drive=5", "drive"},

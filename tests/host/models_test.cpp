@@ -64,6 +64,20 @@ TEST(Models, driversEyeIsInTheDryCabin) {
               glm::all(glm::lessThan(car.eye.position_m, high)));
 }
 
+TEST(Models, lensStandsBeforeItsCameraAndDry) {
+  const host::CarView car = host::carView(model("car.glb"));
+  const auto lens =
+      std::find_if(car.panes.begin(), car.panes.end(), [](const auto& p) { return p.name == "lens"; });
+  const auto camera =
+      std::find_if(car.cameras.begin(), car.cameras.end(), [](const auto& c) { return c.name == "lens"; });
+  ASSERT_TRUE(lens != car.panes.end() && camera != car.cameras.end());
+  for (std::size_t i = 0; i < lens->positions_m.size(); ++i) {
+    const glm::vec3 out = lens->positions_m[i] - camera->position_m;
+    EXPECT_LT(glm::length(out), 0.05F);
+    EXPECT_GT(glm::dot(out, lens->normals[i]), 0.0F) << "its wet side looks away from the camera";
+  }
+}
+
 TEST(Models, roadLeadsThroughEachShelterThatIsDrivenThrough) {
   const host::RoadView road = host::roadView(model("road.glb"));
   ASSERT_TRUE(road.route);

@@ -114,6 +114,21 @@ TEST(CarView, eyeLampsWheelsAndMirrorAreInTheVehicleFrame) {
   expectNear(view.mirrors[0].centre_m, {0, 0, 2});
 }
 
+TEST(CarView, camerasOfTheCarsOwnAreInTheVehicleFrame) {
+  files::Gltf g = files::wholeCar();
+  g.json["nodes"][5]["extras"]["rainglass"] = {{"type", "camera"}, {"name", "lens"}, {"yaw_deg", 90},
+                                               {"pitch_deg", -9},  {"fov_deg", 100}, {"inside", true}};
+  const host::CarView view = host::carView(load(g));
+  EXPECT_FALSE(view.eye.given);
+  ASSERT_EQ(view.cameras.size(), 1U);
+  EXPECT_EQ(view.cameras[0].name, "lens");
+  expectNear(view.cameras[0].position_m, {1.0F, 0.4F, 1.2F});
+  EXPECT_NEAR(view.cameras[0].yaw_rad, 1.5707963F, kRounding);
+  EXPECT_NEAR(view.cameras[0].pitch_rad, -0.15707963F, kRounding);
+  EXPECT_NEAR(view.cameras[0].fov_rad, 1.7453293F, kRounding);
+  EXPECT_TRUE(view.cameras[0].inside);
+}
+
 TEST(CarView, carWithoutExtrasHasADefaultEyeAndNoGlass) {
   files::Gltf g = files::wholeCar();
   for (auto& node : g.json["nodes"]) node.erase("extras");

@@ -62,6 +62,7 @@ struct Check {
   void operator()(int node, const ShelterMeaning& shelter);
   void operator()(int node, const WiperMeaning& wiper);
   void operator()(int node, const EyeMeaning&) { single(node, "eye", eyes); }
+  void operator()(int node, const CameraMeaning& camera) { once(node, "camera", camera.name); }
   void operator()(int node, const RouteMeaning&);
   void operator()(int node, const LightMeaning&) const;
   void operator()(int node, const WheelMeaning&) const { needAxes(node, "wheel"); }

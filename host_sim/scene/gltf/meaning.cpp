@@ -37,14 +37,9 @@ T oneOf(const Fields& f, const char* key, const std::array<std::pair<const char*
 }
 
 Meaning readPane(const Fields& f) {
-  static constexpr std::array<std::pair<const char*, GlassSurface>, 4> kSurfaces = {
-      {{"uncoated", GlassSurface::Uncoated},
-       {"dirty", GlassSurface::Dirty},
-       {"coated", GlassSurface::Coated},
-       {"new_coating", GlassSurface::NewCoating}}};
   f.allowOnly({"type", "name", "glass"});
   const std::string name = readName(f);
-  return PaneMeaning{name, oneOf(f, "glass", kSurfaces, f.text("glass", 1000, "uncoated"))};
+  return PaneMeaning{name, oneOf(f, "glass", kGlassSurfaces, f.text("glass", 1000, "uncoated"))};
 }
 
 Meaning readShelter(const Fields& f) {
@@ -73,6 +68,13 @@ Meaning readWiper(const Fields& f) {
 Meaning readEye(const Fields& f) {
   f.allowOnly({"type", "pitch_deg", "fov_deg"});
   return EyeMeaning{radians(f, "pitch_deg", -90.0, 90.0, 0.0), radians(f, "fov_deg", 20.0, 120.0, 60.0)};
+}
+
+Meaning readCamera(const Fields& f) {
+  f.allowOnly({"type", "name", "yaw_deg", "pitch_deg", "fov_deg", "inside"});
+  return CameraMeaning{readName(f), radians(f, "yaw_deg", -180.0, 180.0, 0.0),
+                       radians(f, "pitch_deg", -90.0, 90.0, 0.0), radians(f, "fov_deg", 20.0, 120.0, 60.0),
+                       f.flag("inside", false)};
 }
 
 Meaning readRoute(const Fields& f) {
@@ -123,15 +125,16 @@ Meaning readMirror(const Fields& f) {
 }
 
 using Read = Meaning (*)(const Fields&);
-constexpr std::array<std::pair<const char*, Read>, 9> kTypes = {{{"pane", readPane},
-                                                                 {"shelter", readShelter},
-                                                                 {"wiper", readWiper},
-                                                                 {"eye", readEye},
-                                                                 {"route", readRoute},
-                                                                 {"light", readLight},
-                                                                 {"wheel", readWheel},
-                                                                 {"steering_wheel", readSteeringWheel},
-                                                                 {"mirror", readMirror}}};
+constexpr std::array<std::pair<const char*, Read>, 10> kTypes = {{{"pane", readPane},
+                                                                  {"shelter", readShelter},
+                                                                  {"wiper", readWiper},
+                                                                  {"eye", readEye},
+                                                                  {"camera", readCamera},
+                                                                  {"route", readRoute},
+                                                                  {"light", readLight},
+                                                                  {"wheel", readWheel},
+                                                                  {"steering_wheel", readSteeringWheel},
+                                                                  {"mirror", readMirror}}};
 
 }  // namespace
 
