@@ -412,6 +412,8 @@ constexpr rg_api kApi = {
     setRainPattern,
     defaultWashInfo,
     wash,
+    defaultAirflow,
+    setAirflow,
 };
 
 }  // namespace

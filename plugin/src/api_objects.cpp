@@ -11,6 +11,7 @@ namespace {
 
 constexpr uint32_t kMostPlacedDrops = 1000000, kMostVertices = 1000000;
 constexpr size_t kLongestRow = size_t{1} << 20;  // bytes; a longer stride is a mistake
+constexpr double kMostAirflowSamples = 256;      // along a side
 constexpr double kAcross = 0.01;                 // cosine of a right angle, within half a degree
 
 glm::dvec3 unitVector(const double v[3], const char* name) {
@@ -184,6 +185,32 @@ rg_result wash(rg_instance* instance, const rg_wash_info* in) {
     order.duration_s = info.duration_s;
     order.volume_m3 = info.volume_m3;
     frame.wash(order);
+  });
+}
+
+rg_result setAirflow(rg_instance* instance, uint32_t pane, const rg_airflow* in) {
+  return guarded(instance, [&](Frame& frame) {
+    glass::Airflow airflow;
+    if (in != nullptr) {
+      const rg_airflow info = readStruct(in, "rg_airflow");
+      checkRange(info.stagnation, 0.0, 1.0, "rg_airflow.stagnation");
+      checkRange(info.outward, 0.0, 2.0, "rg_airflow.outward");
+      checkRange(info.lee, 0.0, 1.0, "rg_airflow.lee");
+      checkRange(info.drag_friction, 0.0, 0.1, "rg_airflow.drag_friction");
+      checkRange(info.columns, 0.0, kMostAirflowSamples, "rg_airflow.columns");
+      checkRange(info.rows, 0.0, kMostAirflowSamples, "rg_airflow.rows");
+      if ((info.columns == 0) != (info.rows == 0))
+        refuse("rg_airflow: of columns and rows one is 0, the other not");
+      airflow.shape = {info.stagnation, info.outward, info.lee, info.drag_friction};
+      const size_t count = size_t{info.columns} * info.rows;
+      checkArray(info.ahead, count, 3 * sizeof(float), 3 * sizeof(float), count, "rg_airflow.ahead");
+      airflow.ahead = {static_cast<int>(info.columns), static_cast<int>(info.rows), {}};
+      for (size_t i = 0; i < 3 * count; ++i)
+        checkRange(static_cast<double>(info.ahead[i]), -5.0, 5.0, "rg_airflow.ahead");
+      for (size_t i = 0; i < count; ++i)
+        airflow.ahead.share.emplace_back(info.ahead[3 * i], info.ahead[3 * i + 1], info.ahead[3 * i + 2]);
+    }
+    frame.setAirflow(pane, std::move(airflow));
   });
 }
 

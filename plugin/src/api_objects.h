@@ -14,6 +14,7 @@ rg_result setWiper(rg_instance* instance, uint32_t id, const rg_wiper_info* in);
 rg_result removeWiper(rg_instance* instance, uint32_t id);
 rg_result placeDrops(rg_instance* instance, uint32_t pane, const rg_glass_drop* in, uint32_t count);
 rg_result wash(rg_instance* instance, const rg_wash_info* in);
+rg_result setAirflow(rg_instance* instance, uint32_t pane, const rg_airflow* in);
 rg_result setRainPattern(rg_instance* instance, const rg_rain_pattern* in);
 
 }  // namespace rg

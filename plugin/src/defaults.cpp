@@ -1,5 +1,6 @@
 #include "defaults.h"
 
+#include "glass/airflow.h"
 #include "tick.h"
 
 namespace rg {
@@ -85,6 +86,15 @@ void defaultWashInfo(rg_wash_info* out) {
   out->volume_m3 = 2e-5;
   out->direction[0] = 1.0;
   out->fan_rad = 0.2;
+}
+
+void defaultAirflow(rg_airflow* out) {
+  if (!clear(out)) return;
+  const glass::AirflowShape shape;
+  out->stagnation = shape.stagnation;
+  out->outward = shape.outward;
+  out->lee = shape.lee;
+  out->drag_friction = shape.drag_friction;
 }
 
 void defaultTarget(rg_target* out) {

@@ -15,6 +15,7 @@ void defaultVolumeInfo(rg_volume_info* out);
 void defaultPaneInfo(rg_pane_info* out);
 void defaultWiperInfo(rg_wiper_info* out);
 void defaultWashInfo(rg_wash_info* out);
+void defaultAirflow(rg_airflow* out);
 void defaultTarget(rg_target* out);
 void defaultLighting(rg_lighting* out);
 void defaultDraw(rg_draw* out);

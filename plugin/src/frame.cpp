@@ -79,6 +79,8 @@ void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::Pan
   object.vehicle = vehicle;
   object.active = active;
   object.sim = std::move(sim);
+  if (const auto before = panes_.find(id); before != panes_.end()) object.airflow = before->second.airflow;
+  object.sim->setAirflow(object.airflow);
   if (gl_) object.sim->attachFilm();
   std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });  // the glass is another
   panes_[id] = std::move(object);
@@ -127,6 +129,13 @@ void Frame::removeWiper(uint32_t id) {
 void Frame::placeDrops(uint32_t id, std::span<const glass::PlacedDrop> drops) {
   const std::lock_guard lock(sim_);
   pane(id).sim->placeDrops(drops);
+}
+
+void Frame::setAirflow(uint32_t id, glass::Airflow airflow) {
+  const std::lock_guard lock(sim_);
+  PaneObject& on = pane(id);
+  on.airflow = std::move(airflow);
+  on.sim->setAirflow(on.airflow);
 }
 
 void Frame::wash(const WashOrder& order) {

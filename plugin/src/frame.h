@@ -12,6 +12,7 @@
 #include "error.h"
 #include "gl/loader.h"
 #include "gl/timers.h"
+#include "glass/airflow.h"
 #include "glass/look_gl.h"
 #include "glass/pane.h"
 #include "glass/pane_gl.h"
@@ -32,6 +33,7 @@ struct PaneObject {
   bool active = true;
   std::shared_ptr<glass::PaneSim> sim;
   std::array<float, glass::kRegions> wet_share{};
+  glass::Airflow airflow;
   int64_t tick = 0;  // the pane's own count: it has no gaps where time was left out
 };
 
@@ -87,6 +89,7 @@ class Frame {
   void removeWiper(uint32_t id);
   void placeDrops(uint32_t pane, std::span<const glass::PlacedDrop> drops);
   void wash(const WashOrder& order);
+  void setAirflow(uint32_t pane, glass::Airflow airflow);
   void setRainPattern(rain::RainPattern pattern);  // an empty one: the project's own
 
   // Time. update returns a remark or RG_OK.

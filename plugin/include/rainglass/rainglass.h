@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 2u
+#define RG_ABI_MINOR 3u
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -294,6 +294,22 @@ typedef struct rg_wash_info {
   double direction[3]; /* unit, vehicle frame; a jet is so fast that it goes straight */
   double fan_rad;      /* whole angle of its cone, 0.01 .. 3; default 0.2 */
 } rg_wash_info;
+
+/* How air runs over a pane, since minor 3: what drags water over it. Speeds are shares of the free air's,
+ * relative to the vehicle. */
+typedef struct rg_airflow {
+  uint32_t struct_size;
+  uint32_t columns, rows; /* of `ahead`, 0 .. 256 each; 0 (default): there is none */
+  double stagnation;      /* of a pane that faces the wind: share of the speed missing at its lower edge, 0 .. 1;
+                             default 0.65 */
+  double outward;         /* and how much of the component against it turns to its sides there, 0 .. 2;
+                             default 0.35 */
+  double lee;             /* share of the speed behind a pane that faces away, 0 .. 1; default 0.25 */
+  double drag_friction;   /* C_f of the shear on a film, rho_air C_f U^2 / 2, 0 .. 0.1; default 0.004 */
+  const float* ahead;     /* velocity along the glass for air from dead ahead, vehicle frame, xyz each, -5 .. 5;
+                             row by row from the pane's lower edge, each from its left seen from inside; copied.
+                             Takes the place of the first two for that part of the air which comes from ahead */
+} rg_airflow;
 
 /* ---- drawing ---- */
 
@@ -554,6 +570,12 @@ typedef struct rg_api {
   void (*default_wash_info)(rg_wash_info* out); /* [thread: any] */
   /* Washes a pane once; at most 8 at a time on each. [thread: as update] */
   rg_result (*wash)(rg_instance* instance, const rg_wash_info* info);
+
+  /* From minor version 3 on. */
+  void (*default_airflow)(rg_airflow* out); /* [thread: any] */
+  /* How air runs over a pane, from the next tick on; null: as by default. It stays when the pane is set again.
+   * [thread: as update] */
+  rg_result (*set_airflow)(rg_instance* instance, uint32_t pane, const rg_airflow* airflow);
 } rg_api;
 
 /* The table for this ABI major, or null when this library does not speak it. Static: never freed. [thread:

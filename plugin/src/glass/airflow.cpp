@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "glass/water.h"
 
 namespace rg::glass {
 
-glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
-                        const AirflowShape& shape) {
+namespace {
+
+glm::dvec3 airByShape(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
+                      const AirflowShape& shape) {
   const double speed = glm::length(air_mps);
   if (speed < 1e-6) return glm::dvec3(0.0);
   const double into = -glm::dot(air_mps, node.normal);  // > 0: blows against the glass
@@ -22,6 +25,34 @@ glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dve
   return along + right_m * (shape.outward * into * node.across);
 }
 
+}  // namespace
+
+glm::dvec3 AirflowField::at(double across, double height) const {
+  const glm::dvec2 most(columns - 1, rows - 1);
+  const glm::dvec2 place = glm::clamp(glm::dvec2(0.5 * (across + 1.0), height), 0.0, 1.0) * most;
+  const glm::ivec2 low(place), high = glm::min(low + 1, glm::ivec2(most));
+  const glm::dvec2 f = place - glm::dvec2(low);
+  const auto value = [this](int x, int y) {
+    return glm::dvec3(share[static_cast<size_t>(y) * static_cast<size_t>(columns) + static_cast<size_t>(x)]);
+  };
+  return glm::mix(glm::mix(value(low.x, low.y), value(high.x, low.y), f.x),
+                  glm::mix(value(low.x, high.y), value(high.x, high.y), f.x), f.y);
+}
+
+glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
+                        const Airflow& airflow) {
+  if (airflow.ahead.share.empty()) return airByShape(map, node, air_mps, airflow.shape);
+  const double from_ahead_mps = std::max(0.0, -air_mps.x);
+  const glm::dvec3 rest_mps = air_mps + glm::dvec3(from_ahead_mps, 0.0, 0.0);
+  return from_ahead_mps * airflow.ahead.at(node.across, node.height) +
+         airByShape(map, node, rest_mps, airflow.shape);
+}
+
+void ForceField::setAirflow(Airflow airflow) {
+  airflow_ = std::move(airflow);
+  acceleration_mps2_ = glm::dvec3(1e300);  // no tick's: the next is made anew
+}
+
 void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps) {
   if (!nodes_.empty() && acceleration_mps2 == acceleration_mps2_ && air_mps == air_mps_) return;
   acceleration_mps2_ = acceleration_mps2;
@@ -31,7 +62,7 @@ void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, c
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const PaneNode& node = map.nodes()[i];
     nodes_[i].acceleration = glm::vec2(PaneMap::alongGlass(node, acceleration_mps2));
-    nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps)));
+    nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps, airflow_)));
     most_acceleration_mps2_ =
         std::max(most_acceleration_mps2_, static_cast<double>(glm::length(nodes_[i].acceleration)));
     most_air_mps_ = std::max(most_air_mps_, static_cast<double>(glm::length(nodes_[i].air)));
@@ -60,7 +91,7 @@ Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {
 }
 
 std::vector<shared::vec4> ForceField::filmDrive() const {
-  const auto friction = static_cast<float>(0.5 * kRhoAir_kg_m3 * AirflowShape{}.drag_friction);
+  const auto friction = static_cast<float>(0.5 * kRhoAir_kg_m3 * airflow_.shape.drag_friction);
   std::vector<shared::vec4> out;
   out.reserve(nodes_.size());
   for (const NodePush& node : nodes_) {

@@ -16,10 +16,23 @@ struct AirflowShape {
   double drag_friction = 0.004;  // C_f of tau = rho_a C_f U^2 / 2; 0.003..0.005
 };
 
+// What a host knows of its vehicle's air: velocity along the glass over the free air's speed, vehicle frame,
+// for air from dead ahead. Row by row from the pane's lower edge, each from its left seen from inside.
+struct AirflowField {
+  int columns = 0, rows = 0;  // 0: nothing is known
+  std::vector<glm::vec3> share;
+  glm::dvec3 at(double across, double height) const;  // as of PaneNode; bilinear
+};
+
+struct Airflow {
+  AirflowShape shape;
+  AirflowField ahead;  // takes the shape's place for the part of the air that comes from ahead
+};
+
 // Velocity of the air just above a node's boundary layer, along the glass, vehicle frame. `air_mps` is the
 // free air's, relative to the vehicle.
 glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
-                        const AirflowShape& shape = {});
+                        const Airflow& airflow = {});
 
 // What pushes water at a place, grid axes, in real units.
 struct Push {
@@ -32,6 +45,8 @@ struct Push {
 class ForceField {
  public:
   void make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps);
+  void setAirflow(Airflow airflow);  // of the next make()
+  void clear() { nodes_.clear(); }   // the airflow stays
   Push at(const PaneMap& map, glm::dvec2 grid_m) const;
   // Per node, for the film: xy acceleration, zw shear stress.
   std::vector<shared::vec4> filmDrive() const;
@@ -44,6 +59,7 @@ class ForceField {
   struct NodePush {
     glm::vec2 acceleration, air;
   };
+  Airflow airflow_;
   std::vector<NodePush> nodes_;
   glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0};
   double most_acceleration_mps2_ = 0.0, most_air_mps_ = 0.0;

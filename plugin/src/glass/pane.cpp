@@ -230,6 +230,11 @@ void PaneSim::setWiper(uint32_t id, const WiperInfo& info) {
   state_->blades.set(id, info, state_->map, state_->film);
 }
 
+void PaneSim::setAirflow(Airflow airflow) {
+  const std::lock_guard lock(state_->mutex);
+  state_->forces.setAirflow(std::move(airflow));
+}
+
 void PaneSim::removeWiper(uint32_t id) {
   const std::lock_guard lock(state_->mutex);
   state_->blades.remove(id, state_->film);
@@ -263,7 +268,7 @@ void PaneSim::reset() {
   state_->film.clear();
   state_->blades.clear();
   state_->ledger = {};
-  state_->forces = {};
+  state_->forces.clear();
   state_->now = {};
   state_->dropped_ticks = 0;
   state_->ticks += state_->ticks % kTicksPerFilmStep;  // film steps end with the same ticks as on a new pane

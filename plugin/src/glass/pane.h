@@ -71,6 +71,7 @@ struct WiperStroke {
   double to_rad = 0.0;
 };
 
+struct Airflow;
 class Jet;
 
 // What a jet brings in a tick.
@@ -156,6 +157,9 @@ class PaneSim {
   // goes back to the film.
   void setWiper(uint32_t id, const WiperInfo& info);
   void removeWiper(uint32_t id);
+
+  // How air runs over it, from the next tick on.
+  void setAirflow(Airflow airflow);
 
   // Adds drops beside those there, counted as caught. Throws std::invalid_argument, placing none, when one
   // lies off the pane or they are too many.
