@@ -33,6 +33,7 @@ struct PaneObject {
   std::shared_ptr<glass::PaneSim> sim;
   std::array<float, glass::kRegions> wet_share{};
   int64_t tick = 0;  // the pane's own count: it has no gaps where time was left out
+  uint64_t left_out_ticks = 0;
 };
 
 // A jet at work.
