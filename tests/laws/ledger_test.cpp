@@ -13,6 +13,7 @@ struct Regime {
   int32_t glass;
   double brakes_mps2 = 0.0;  // to and fro
   double wash_every_s = 0.0;
+  friend void PrintTo(const Regime& regime, std::ostream* out) { *out << regime.name; }
 };
 
 const Regime kRegimes[] = {{"parked in rain", 10, 0, 0, 0, 0.9, 12, RG_GLASS_UNCOATED},
@@ -32,9 +33,9 @@ class Ledger : public Drawing<GlTest> {
     SCOPED_TRACE(regime.name);
     rig.reset();
     Plate plate;
-    plate.width_m = 0.6;
-    plate.height_m = 0.4;
-    plate.bulge_m = 0.03;
+    plate.width_m = 0.36;
+    plate.height_m = 0.24;
+    plate.bulge_m = 0.02;
     plate.glass = regime.glass;
     rig.set(1, plate);
     rig.put(1, 0.0, {regime.speed_mps, 0.0, 0.0});
@@ -68,14 +69,14 @@ class Ledger : public Drawing<GlTest> {
     rg_wiper_info wiper;
     rig.api.default_wiper_info(&wiper);
     wiper.pane = 1;
-    const glm::dvec3 pivot = kMiddle_m - 0.2 * plate.up();
+    const glm::dvec3 pivot = kMiddle_m - 0.12 * plate.up();
     for (int i = 0; i < 3; ++i) {
       wiper.pivot_m[i] = pivot[i];
       wiper.axis[i] = plate.outward()[i];
       wiper.rest_direction[i] = i == 1 ? 1.0 : 0.0;
     }
-    wiper.arm_m = 0.2;
-    wiper.blade_m = 0.3;
+    wiper.arm_m = 0.12;
+    wiper.blade_m = 0.18;
     wiper.wear = 0.5;
     rig.expect(rig.api.set_wiper(rig.instance, 1, &wiper));
     rig.wipers[1] = [cycles_per_min](double time_s) {
