@@ -39,7 +39,8 @@ Json pane(const std::string& name, const rg_pane_stats& p) {
           {"wiped_ml", p.wiped_ml},
           {"blown_ml", p.blown_ml},
           {"evaporated_ml", p.evaporated_ml},
-          {"ledger_error", p.ledger_error}};
+          {"ledger_error", p.ledger_error},
+          {"dropped_s", p.dropped_s}};
 }
 
 }  // namespace

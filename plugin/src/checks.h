@@ -25,6 +25,8 @@ template <>
 inline constexpr size_t kFirstSize<rg_wiper_info> = offsetof(rg_wiper_info, blade_turn);
 template <>
 inline constexpr size_t kFirstSize<rg_rain_stats> = offsetof(rg_rain_stats, snow_mm_h);
+template <>
+inline constexpr size_t kFirstSize<rg_pane_stats> = offsetof(rg_pane_stats, dropped_s);
 
 // How much of a struct of that size is known here: as the first header or this one says; a longer one's end
 // is a later header's. Refuses sizes that fit none.

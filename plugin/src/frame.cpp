@@ -184,6 +184,7 @@ rg_result Frame::update(int64_t time_ns, const std::vector<Sample>& samples) {
   const auto most = static_cast<int64_t>(settings_.time_catch_up_s * static_cast<double>(kTickHz));
   const int64_t dropped = std::max<int64_t>(0, last - next_tick_ + 1 - most);
   next_tick_ += dropped;
+  for (auto& [id, p] : panes_) p.left_out_ticks += p.active ? static_cast<uint64_t>(dropped) : 0;
   for (; next_tick_ <= last; ++next_tick_) runTick(next_tick_, false);
   timeline_.prune(next_tick_ - 1);
   publish();
@@ -220,6 +221,7 @@ void Frame::reset() {
   for (auto& [id, p] : panes_) {
     p.sim->reset();
     p.tick = 0;
+    p.left_out_ticks = 0;
   }
   started_ = false;
   prewarm_ticks_ = 0;
@@ -285,7 +287,9 @@ glass::PaneStats Frame::paneStats(uint32_t id) {
   const std::lock_guard lock(sim_);
   PaneObject& p = pane(id);
   finishGlass();
-  return p.sim->stats();
+  glass::PaneStats stats = p.sim->stats();
+  stats.dropped_ticks += p.left_out_ticks;
+  return stats;
 }
 
 uint64_t Frame::hash(bool with_glass) {

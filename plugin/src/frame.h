@@ -35,6 +35,7 @@ struct PaneObject {
   std::array<float, glass::kRegions> wet_share{};
   glass::Airflow airflow;
   int64_t tick = 0;  // the pane's own count: it has no gaps where time was left out
+  uint64_t left_out_ticks = 0;
 };
 
 // A jet at work.

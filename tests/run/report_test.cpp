@@ -44,7 +44,7 @@ TEST(Report, holdsWhatItPromises) {
   EXPECT_EQ(json["rain"]["rate_mm_h"], 10.0);
   ASSERT_FALSE(json["panes"].empty());
   for (const char* key : {"area_m2", "caught_ml", "on_glass_ml", "drained_ml", "wiped_ml", "blown_ml",
-                          "evaporated_ml", "ledger_error"}) {
+                          "evaporated_ml", "ledger_error", "dropped_s"}) {
     EXPECT_TRUE(json["panes"][0][key].is_number()) << key;
   }
 }

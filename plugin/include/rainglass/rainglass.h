@@ -418,6 +418,9 @@ typedef struct rg_pane_stats {
   double film_ml;      /* of on_glass */
   double drops_ml;     /* of on_glass */
   double ridge_ml;     /* of on_glass: carried by blades */
+  /* Since minor 3. */
+  double dropped_s; /* time that was left out for this pane since it was made or reset: of stalls longer than
+                       time.catch_up_s, and while step_gpu did not come for more than 4 s */
 } rg_pane_stats;
 
 typedef struct rg_stage_stats {

@@ -66,6 +66,7 @@ struct PaneSim::State {
   bool ready() const { return (ticks + 1) % kTicksPerFilmStep != 0 || film.reported(stepUsedBy(ticks + 1)); }
   static int64_t stepUsedBy(int64_t tick) { return (tick - kReportLatency_ticks) / kTicksPerFilmStep; }
   void runWaiting();
+  void leaveOutATick();
   void run(const PaneTick& tick);
   void useReport();
   void catchRain();
@@ -188,6 +189,27 @@ void PaneSim::State::runWaiting() {
   }
 }
 
+// The oldest of those that wait; what water it was told to bring comes with the next.
+void PaneSim::State::leaveOutATick() {
+  const Waiting left = std::move(waiting.front());
+  waiting.pop_front();
+  ++dropped_ticks;
+  Waiting& next = waiting.front();
+  next.placed.insert(next.placed.begin(), left.placed.begin(), left.placed.end());
+  PaneTick& tick = next.tick;
+  for (uint32_t i = 0; i < left.tick.washing_count; ++i) {
+    const Washing& washing = left.tick.washings[i];
+    uint32_t same = 0;
+    while (same < tick.washing_count && tick.washings[same].jet != washing.jet) ++same;
+    if (same < tick.washing_count)
+      tick.washings[same].volume_pl += washing.volume_pl;
+    else if (same < kMostWashings)
+      tick.washings[tick.washing_count++] = washing;
+    else
+      tick.washings.back().volume_pl += washing.volume_pl;
+  }
+}
+
 void PaneSim::State::checkPlaces(std::span<const PlacedDrop> list) const {
   for (const PlacedDrop& drop : list) {
     const bool sound = drop.base_radius_m >= 1e-5 && drop.base_radius_m <= 0.02 &&
@@ -255,10 +277,7 @@ void PaneSim::submit(const PaneTick& tick) {
   const std::lock_guard lock(state_->mutex);
   state_->waiting.push_back({tick, {}});
   state_->runWaiting();
-  while (state_->waiting.size() > kMostWaiting) {
-    state_->waiting.pop_front();
-    ++state_->dropped_ticks;
-  }
+  while (state_->waiting.size() > kMostWaiting) state_->leaveOutATick();
 }
 
 void PaneSim::reset() {

@@ -280,9 +280,10 @@ void PaneMap::makeNodes() {
     const glm::dvec2 place =
         glm::dvec2(static_cast<int>(n) % nodes_across_.x, static_cast<int>(n) / nodes_across_.x) *
         (kTile * grid_.texel_m);
-    const glm::dvec2 share = (glassFromGrid(place) - glass_low) / (glass_high - glass_low + 1e-9);
-    node.across = std::clamp(2.0 * share.x - 1.0, -1.0, 1.0);
-    node.height = std::clamp(share.y, 0.0, 1.0);
+    // Written so that left and right are alike to the last bit.
+    const glm::dvec2 glass = glassFromGrid(place), extent = glass_high - glass_low + 1e-9;
+    node.across = std::clamp((2.0 * glass.x - (glass_low.x + glass_high.x)) / extent.x, -1.0, 1.0);
+    node.height = std::clamp((glass.y - glass_low.y) / extent.y, 0.0, 1.0);
     const double area = glm::length(glm::cross(node.along_x, node.along_y)) * grid_.texel_m * grid_.texel_m;
     node_metric_.emplace_back(static_cast<float>(glm::length(node.along_x) * grid_.texel_m),
                               static_cast<float>(glm::length(node.along_y) * grid_.texel_m),
