@@ -266,7 +266,7 @@ rg_result getPaneStats(rg_instance* instance, uint32_t pane, rg_pane_stats* out)
     r.blown_ml = static_cast<double>(s.blown_pl) * kMl;
     r.evaporated_ml = static_cast<double>(s.evaporated_pl) * kMl;
     r.film_ml = static_cast<double>(s.film_pl) * kMl;
-    r.drops_ml = static_cast<double>(s.drops_pl) * kMl;
+    r.drops_ml = static_cast<double>(s.drops_pl + s.beads_pl) * kMl;
     r.ridge_ml = static_cast<double>(s.ridge_pl) * kMl;
     r.dropped_s = static_cast<double>(s.dropped_ticks) * kTickSeconds;
     const double found_ml = r.on_glass_ml + r.drained_ml + r.wiped_ml + r.blown_ml + r.evaporated_ml;

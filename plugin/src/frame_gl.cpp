@@ -58,6 +58,8 @@ glass::LookPane lookPane(const glass::PaneDrawn& d, const Pose& vehicle, int64_t
   p.frame = d.frame;
   p.film = d.film;
   p.film_unit_m3 = d.film_unit_m3;
+  p.beads = d.beads;
+  if (d.bead_contact_rad > 0.0) p.bead_contact_rad = static_cast<float>(d.bead_contact_rad);
   p.drop_buffer = d.drop_buffer;
   p.drop_count = d.drop_count;
   const double age_s = static_cast<double>(time_ns - drops_ns) * 1e-9;

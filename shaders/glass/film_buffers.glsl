@@ -14,6 +14,7 @@ struct TileState {
   int stirs; // holds water that may flow, or was changed from outside
   int awake; // in the last step
   int film_low_pl, film_high; // of its last report
+  uint beads_pl;
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };
 
@@ -32,7 +33,7 @@ int placeOf(int texel) { return texel / info.columns * (tilesAcross() * kTileSiz
 void wake(int texel) { states[texel / info.columns / kTileSize * tilesAcross() + texel % info.columns / kTileSize].stirs = 1; }
 
 // In a test build one of these loses 1 % of what passes through it: FilmKernel of pane_gl.h.
-const int kTake = 1, kAdd = 2, kRidge = 3, kSweep = 4, kLeave = 5, kFlow = 6;
+const int kTake = 1, kAdd = 2, kRidge = 3, kSweep = 4, kLeave = 5, kFlow = 6, kBeadAdd = 7, kBead = 8;
 int passed(int kernel, int volume_pl) {
 #ifdef RG_LEAK
   if (kernel == RG_LEAK) return volume_pl - volume_pl / 100;

@@ -1,10 +1,11 @@
-// What comes to the film and what is taken from it: rain, trails and dissolved drops; what drops ran over; drops a blade met, which join its
-// ridge. No texel twice in a step.
+// What comes to the film and to the beads and what is taken from both: rain, trails and dissolved drops; what drops ran over; drops a blade met,
+// which join its ridge. No texel twice in a step.
 #include "glass/film_buffers.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Changes { FilmChange changes[]; };
 layout(std430, binding = 2) writeonly buffer Report { int taken_pl[]; };
 layout(std430, binding = 3) buffer Film { int film[]; };
+layout(std430, binding = 6) buffer Lying { uint beads[]; };
 
 void main() {
   int i = int(gl_GlobalInvocationID.x);
@@ -15,8 +16,12 @@ void main() {
     return;
   }
   int place = placeOf(change.texel), volume = film[place];
-  int taken = shareOf(volume, change.share_65536);
-  film[place] = volume - taken + passed(kAdd, change.added_pl);
-  if (change.take >= 0) taken_pl[change.take] = passed(kTake, taken);
+  Beads lying = beadsOf(beads[place]);
+  int taken = shareOf(volume, change.share_65536), taken_beads = shareOf(lying.volume_pl, change.share_65536);
+  volume += passed(kAdd, change.added_pl) - taken;
+  lying = joinedBy(withoutPart(lying, taken_beads), passed(kBeadAdd, change.beads_pl), change.beads, volume);
+  film[place] = volume;
+  beads[place] = packedBeads(lying);
+  if (change.take >= 0) taken_pl[change.take] = passed(kTake, taken + taken_beads);
   wake(change.texel);
 }

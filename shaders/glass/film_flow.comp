@@ -1,5 +1,6 @@
-// A film step: every texel gathers what its neighbours give and gives what they gather, dries, and may offer water to the drops. It reads the
-// film in one buffer and writes it to another, so that all see it as it was. The law is in shared/glass_film.glsl.
+// A film step: every texel gathers what its neighbours give and gives what they gather, dries, breaks up into beads or takes them in, and may offer
+// water to the drops. It reads the film in one buffer and writes it to another, so that all see it as it was; beads it changes where they are. The
+// law is in shared/glass_film.glsl.
 // A tile that is awake is a group: two invocations for four columns, from the tile's lower and upper edge to its middle. Software GL, too, reads
 // buffers as images fast, but as storage slowly, and runs through branches that nobody takes.
 #include "glass/film_buffers.glsl"
@@ -7,7 +8,9 @@ layout(local_size_x = 8) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
 layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
+layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // beads: the buffer below
 layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
+layout(std430, binding = 6) writeonly buffer Lying { uvec4 beads[]; };
 layout(std430, binding = 2) writeonly buffer Report { int tiles[]; }; // FilmTile
 layout(std430, binding = 4) readonly buffer Awake {
   AwakeTiles awake[2];
@@ -20,11 +23,11 @@ const int kNone = 0x7fffffff;
 // What an invocation saw on its way.
 struct Walk {
   FilmTile sums;   // its part of the tile's report; the event is its greatest offer
-  int offering_pl; // what is on the texel that makes it
+  FilmTexel offering; // the texel that makes it
   int stirs;
 };
 // The greatest offer of all and the first texel that makes it; each walk's part of the fields of FilmTile.
-shared int greatest_pl, first_texel, parts[kWalks * kWalks];
+shared int greatest_pl, first_texel, stirring, parts[kWalks * kWalks];
 
 // Fields along a column of a tile: at its lower and its upper edge.
 struct Column { vec4 metric_low, metric_high, drive_low, drive_high; };
@@ -85,9 +88,10 @@ Walk walk(ivec2 tile, bool dries) {
 
   // Over the pane's edges: to the left, to the right, behind and ahead.
   int over_left = 0, over_right = 0, over_back = 0, over_ahead = 0;
-  Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0), 0, 0);
+  Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0u), FilmTexel(0, noBeads(), 0, 0), 0);
   for (int row = 0; row < kRows; ++row) {
     ivec4 next_pl = imageLoad(before, strip + up * across), after_pl;
+    uvec4 beads_of = imageLoad(lying, strip);
     FilmCell left = cellOf(left_column, y, imageLoad(before, strip - 1).w, step);
     FilmCell right = cellOf(right_column, y, imageLoad(before, strip + 1).x, step);
     float entry_right_m = entryThickness_m(right, glassAt(uint(texel + kStripSize), step), step);
@@ -110,21 +114,23 @@ Walk walk(ivec2 tile, bool dries) {
 
       vec4 m = between(columns[k].metric_low, columns[k].metric_high, fraction(y));
       int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_back[k]) - to_next;
-      int dried = dries && on ? evaporated_pl(volume, uint(texel + k), m, step) : 0;
-      volume = on ? volume - dried : -1;
-      seen.sums.evaporated_pl += dried;
-      int offered = offeredBy_pl(volume, glass[k], m, step);
+      FilmTexel now = settled(on ? volume : -1, beadsOf(beads_of[k]), uint(texel + k), glass[k], m, dries, step);
+      now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
+      seen.sums.evaporated_pl += now.dried_pl;
+      int offered = now.offered_pl;
       // The greatest, and of those the first.
       bool better = offered > seen.sums.event_pl || (offered > 0 && offered == seen.sums.event_pl && texel + k < seen.sums.event_texel);
       seen.sums.event_texel = better ? texel + k : seen.sums.event_texel;
       seen.sums.event_pl = better ? offered : seen.sums.event_pl;
-      seen.offering_pl = better ? volume : seen.offering_pl;
+      if (better) seen.offering = now;
       // Asleep next time only if neighbours, too, have seen it lie still.
-      seen.stirs |= int(max(me[k].h_m, thickness_m(volume, m)) >= step.pin_m);
-      uint whole = uint(max(volume, 0));
+      seen.stirs |= int(offered > 0 || max(me[k].h_m, thickness_m(now.film_pl, m)) >= step.pin_m);
+      uint whole = uint(max(now.film_pl, 0));
       seen.sums.film_low_pl += whole & 0xffffu;
       seen.sums.film_high += whole >> 16u;
-      after_pl[k] = volume;
+      seen.sums.beads_pl += uint(now.beads.volume_pl);
+      after_pl[k] = now.film_pl;
+      beads_of[k] = packedBeads(now.beads);
 
       left_off = !on;
       back_off[k] = !on;
@@ -135,6 +141,7 @@ Walk walk(ivec2 tile, bool dries) {
       entry_m[k] = entry_next_m;
     }
     after[strip] = after_pl;
+    beads[strip] = beads_of;
     y += up;
     strip += up * across;
     texel += up * step.columns;
@@ -154,21 +161,27 @@ void report(int t, Walk seen) {
   if (seen.sums.event_pl > 0 && seen.sums.event_pl == greatest_pl) atomicMin(first_texel, seen.sums.event_texel);
   barrier();
   bool gives = seen.sums.event_texel == first_texel;
-  int left = seen.offering_pl - seen.sums.event_pl, place = gives ? placeOf(first_texel) : 0;
-  if (gives) after[place / kStripSize][place % kStripSize] = left;
-  int film_low_pl = int(seen.sums.film_low_pl) + (gives ? (left & 0xffff) - (seen.offering_pl & 0xffff) : 0);
-  int film_high = int(seen.sums.film_high) + (gives ? (left >> 16) - (seen.offering_pl >> 16) : 0);
+  FilmTexel had = seen.offering, left = gives ? without(had, seen.sums.event_pl) : had;
+  if (gives) {
+    int place = placeOf(first_texel);
+    after[place / kStripSize][place % kStripSize] = left.film_pl;
+    beads[place / kStripSize][place % kStripSize] = packedBeads(left.beads);
+  }
+  int film_low_pl = int(seen.sums.film_low_pl) + (left.film_pl & 0xffff) - (had.film_pl & 0xffff);
+  int film_high = int(seen.sums.film_high) + (left.film_pl >> 16) - (had.film_pl >> 16);
+  int beads_pl = int(seen.sums.beads_pl) + left.beads.volume_pl - had.beads.volume_pl;
   int part[kWalks] = int[kWalks](gives ? first_texel + 1 : 0, gives ? seen.sums.event_pl : 0, film_low_pl, film_high,
-                                 seen.sums.drained_pl, seen.sums.blown_pl, seen.sums.evaporated_pl, seen.stirs);
+                                 seen.sums.drained_pl, seen.sums.blown_pl, seen.sums.evaporated_pl, beads_pl);
   for (int field = 0; field < kWalks; ++field) parts[lane * kWalks + field] = part[field];
+  atomicOr(stirring, seen.stirs);
   barrier();
   int sum = 0;
   for (int k = 0; k < kWalks; ++k) sum += parts[k * kWalks + lane];
-  bool stirs = lane == kWalks - 1;
-  if (stirs) states[t].stirs = sum;
-  tiles[t * kWalks + lane] = stirs ? 0 : lane == 0 ? sum - 1 : sum;
+  tiles[t * kWalks + lane] = lane == 0 ? sum - 1 : sum;
+  if (lane == 0) states[t].stirs = stirring;
   if (lane == 2) states[t].film_low_pl = sum;
   if (lane == 3) states[t].film_high = sum;
+  if (lane == 7) states[t].beads_pl = uint(sum);
 }
 
 void main() {
@@ -178,6 +191,7 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) {
     greatest_pl = 0;
     first_texel = kNone;
+    stirring = 0;
   }
   barrier();
   report(t, walk(ivec2(t % tilesAcross(), t / tilesAcross()), driesNow(uint(t), info)));

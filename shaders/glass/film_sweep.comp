@@ -6,6 +6,7 @@ layout(local_size_x = kBladeSegments) in;
 layout(std430, binding = 0) readonly buffer Swept { SweptTexel swept[]; };
 layout(std430, binding = 2) readonly buffer Ranges { SweptRange ranges[]; };  // one for each piece
 layout(std430, binding = 3) buffer Film { int film[]; };
+layout(std430, binding = 6) buffer Lying { uint beads[]; };
 layout(location = 2) uniform int first_piece;
 layout(location = 3) uniform int backwards;
 
@@ -15,10 +16,13 @@ int swept_over(int ridge, SweptRange range) {
   for (int k = 0; k < range.count; ++k) {
     SweptTexel entry = swept[range.first + (backwards != 0 ? range.count - 1 - k : k)];
     int place = placeOf(entry.texel), volume = film[place];
-    int left = leftBehind_pl(volume, entry, ridge);
-    if (left == volume) continue;
-    ridge += left < volume ? passed(kSweep, volume - left) : volume - left;
+    uint lying = beads[place];
+    int water = volume + beadsOf(lying).volume_pl;  // beads are pressed flat
+    int left = leftBehind_pl(water, entry, ridge);
+    if (left == volume && lying == 0u) continue;
+    ridge += left < water ? passed(kSweep, water - left) : water - left;
     film[place] = left;
+    beads[place] = 0u;
     wake(entry.texel);
   }
   return ridge;

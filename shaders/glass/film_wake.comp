@@ -11,7 +11,7 @@ bool stirs(ivec2 tile) { return states[tile.y * tilesAcross() + tile.x].stirs !=
 
 bool wakes(int t) {
   ivec2 tile = ivec2(t % tilesAcross(), t / tilesAcross()), last = ivec2(tilesAcross(), count / tilesAcross()) - 1;
-  bool dries = driesNow(uint(t), info) && (states[t].film_low_pl | states[t].film_high) != 0;
+  bool dries = driesNow(uint(t), info) && (uint(states[t].film_low_pl | states[t].film_high) | states[t].beads_pl) != 0u;
   return dries || stirs(tile) || stirs(ivec2(max(tile.x - 1, 0), tile.y)) || stirs(ivec2(min(tile.x + 1, last.x), tile.y)) ||
          stirs(ivec2(tile.x, max(tile.y - 1, 0))) || stirs(ivec2(tile.x, min(tile.y + 1, last.y)));
 }
@@ -28,6 +28,6 @@ void main() {
     atomicMax(awake[turn].groups_x, min(place + 1u, kTilesInRow));
     atomicMax(awake[turn].groups_y, place / kTilesInRow + 1u);
   } else {
-    tiles[t] = FilmTile(-1, 0, uint(states[t].film_low_pl), uint(states[t].film_high), 0, 0, 0, 0);
+    tiles[t] = FilmTile(-1, 0, uint(states[t].film_low_pl), uint(states[t].film_high), 0, 0, 0, states[t].beads_pl);
   }
 }

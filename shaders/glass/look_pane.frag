@@ -1,4 +1,5 @@
-// A pixel of the pane: the picture behind it, bent by the film's surface, blurred by droplets too small to be seen one by one.
+// A pixel of the pane: the picture behind it, bent by the film's surface; a bead, or the blur of those too small to be seen one by one.
+#include "optics/bead.glsl"
 #include "optics/bicubic.glsl"
 #include "optics/near.glsl"
 #include "optics/ridge.glsl"
@@ -18,9 +19,6 @@ layout(location = 0) out vec4 color;
 const float kDry_um = 0.15;        // what a wiper leaves counts as clean
 const float kSteepest = 0.6;       // slopes beyond a film's contact angle belong to drops
 const float kBehindGlass_m = 1.0;  // how far the cabin behind a pane is, for an eye outside
-
-// A film too thin to stay whole beads up into droplets below what the eye resolves, until it is thick enough to flow together.
-float beaded(float thickness_um) { return 0.55 * smoothstep(kDry_um, 6.0, thickness_um) * (1.0 - smoothstep(25.0, 90.0, thickness_um)); }
 
 vec2 inPicture(vec3 direction_eye) {
   vec4 clip = frame.clip_from_eye * vec4(direction_eye, 0.0);
@@ -55,6 +53,26 @@ vec3 throughDroplets(vec2 at) {
   return decode(textureLod(picture, mirrored(at), wide - 3.4).rgb);
 }
 
+// Outward normal of a bead's cap, a sphere that meets the glass at the contact angle. Directions of the grid from how the place moves along the
+// picture: for a pixel they are as good as those of the pane's maps.
+vec3 beadNormal(SeenBead bead, vec3 normal, vec2 dx, vec2 dy) {
+  vec3 px = dFdx(i.from_eye), py = dFdy(i.from_eye);
+  float turn = dx.x * dy.y - dx.y * dy.x < 0.0 ? -1.0 : 1.0;
+  vec3 along_u = normalize(turn * (px * dy.y - py * dx.y)), along_v = normalize(turn * (py * dx.x - px * dy.x));
+  vec2 tilt = bead.aside * (frame.bead_sine * min(1.0, 0.999 / max(length(bead.aside), 1e-3)));
+  return normalize(normal * sqrt(max(1.0 - dot(tilt, tilt), 0.0)) + along_u * tilt.x + along_v * tilt.y);
+}
+
+// Through the glass and out of the cap; where the cap reflects all, on in the bead, to leave by many ways about that direction.
+vec3 throughBead(SeenBead bead, vec3 within, vec3 normal, vec3 cap) {
+  vec3 out_direction = refract(within, -cap, kWaterIndex);
+  bool leaves = dot(out_direction, out_direction) > 0.5;
+  float spread = leaves ? frame.bead_sine / bead.radius_px : 0.7;
+  vec3 direction = leaves ? out_direction : reflect(within, cap);
+  mat3 world_from_vehicle = mat3(frame.world_from_vehicle);
+  return surroundingsOfGlass(world_from_vehicle * direction, world_from_vehicle * normal, spread);
+}
+
 void main() {
 #ifdef COARSE  // many pixels to a texel
   vec4 water = textureBicubic(film, i.uv);
@@ -65,11 +83,13 @@ void main() {
   vec3 normal = normalize(i.normal);
   float to_glass_m = length(i.from_eye);
   vec3 view = i.from_eye / to_glass_m;
-  bool wet = water.w > kDry_um;
+  vec2 place = i.uv * vec2(textureSize(beads, 0)), dx = dFdx(place), dy = dFdy(place);
+  SeenBead bead = seenBead(place, dx, dy);
+  bool wet = water.w > kDry_um || bead.cover + bead.hazy > 0.0;
   float steep = length(water.xyz);
   float sure = smoothstep(kDry_um, 4.0 * kDry_um, water.w);
   vec3 slope = water.xyz * (min(1.0, kSteepest / max(steep, 1e-9)) * sure);
-  float beads = beaded(water.w);
+  vec3 cap = beadNormal(bead, normal, dx, dy);
   vec3 surface = normalize(normal - slope);
   mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
   vec2 at = (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw;
@@ -82,7 +102,7 @@ void main() {
   float flat_reflectance = fresnel(max(dot(within, normal), 0.0), 1.0 / kWaterIndex);
   float more = max(fresnel(max(dot(within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
   float behind_m = behindGlass_m(to_glass_m);
-  beads *= 1.0 - nearness(behind_m, dot(view, normal));
+  float far = 1.0 - nearness(behind_m, dot(view, normal));
   // A view bent at the glass misses what stands close behind it by less than what is far.
   float lever = behind_m / (behind_m + to_glass_m);
   vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - at);
@@ -92,11 +112,14 @@ void main() {
   shift *= share;
   if (share < 1.0) spanned = 1.0;
   vec3 blurred = throughDroplets(at + shift);
-  vec3 light = mix(behind(at + shift, spanned), blurred, beads);
+  vec3 light = mix(behind(at + shift, spanned), blurred, bead.hazy * far);
   // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
-  light = frame.brightness * mix(light, frame.cabin_share * blurred, more / (1.0 - flat_reflectance));
+  light = mix(light, frame.cabin_share * blurred, more / (1.0 - flat_reflectance));
+  light = frame.brightness * mix(light, throughBead(bead, within, normal, cap), bead.cover * far);
 #else
   if (!wet && frame.dry_reflection == 0u) discard;
+  surface = normalize(mix(surface, cap, bead.cover));
+  slope = mix(slope, normal - cap, bead.cover);
   vec3 within = refract(view, surface, 1.0 / kWaterIndex);
   vec3 transmitted = refract(within, normal, kWaterIndex);
   if (dot(transmitted, transmitted) < 0.5) transmitted = view;
@@ -104,7 +127,7 @@ void main() {
   float reflectance = first + (1.0 - first) * (1.0 - first) * fresnel(max(-dot(view, normal), 0.02), kWindowIndex);
   float lever = kBehindGlass_m / (kBehindGlass_m + to_glass_m);
   vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
-  vec3 light = frame.brightness * mix(behind(at + shift, spanned_px(at + shift)), throughDroplets(at + shift), beads);
+  vec3 light = frame.brightness * mix(behind(at + shift, spanned_px(at + shift)), throughDroplets(at + shift), bead.hazy);
   vec3 reflected = mat3(frame.world_from_vehicle) * reflect(view, surface);
   light = mix(light, surroundings(reflected, 0.02 + 4.0 * length(fwidth(slope))), reflectance);
 #endif

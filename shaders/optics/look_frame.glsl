@@ -35,8 +35,8 @@ layout(std140, binding = 0) uniform Frame {
   float film_unit_m3;
   int blade_count;          // that push a ridge
   float ridge_tan_contact;  // tangent of the angle in which its foot meets the glass
-  float unused_a;
-  float unused_b;
+  float bead_mm3_per_unit;  // the cube of a bead's base radius, for a unit of the film's volume
+  float bead_sine;          // of the angle in which its cap meets the glass
   LookBlade blades[8];      // kMaxGlassWipers
 } frame;
 #endif

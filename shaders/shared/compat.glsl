@@ -12,6 +12,7 @@
 //   RG_SHARED_END
 //   #endif
 //
+// RG_EXACT float x = ...; is worked out as it stands: what compilers for GPUs put in another order rounds otherwise than C++ does.
 // Rules that make both meanings the same: literals end in f or u; no swizzles but xy(v), xyz(v); conversions are written out (float(n)); no vec3
 // in structs that lie in buffers (std430 pads it to 16 bytes, C++ does not); names must not be GLSL keywords (sample, input, output, half ...).
 #ifndef RG_SHARED_COMPAT_GLSL
@@ -26,6 +27,7 @@
 #define RG_SHARED_END }
 #define RG_FN inline
 #define RG_CONST inline constexpr
+#define RG_EXACT
 #define RG_IN(T) const T&
 #define RG_OUT(T) T&
 #define RG_INOUT(T) T&
@@ -54,6 +56,7 @@ using glm::all, glm::any, glm::equal, glm::greaterThan, glm::greaterThanEqual, g
 #define RG_SHARED_END
 #define RG_FN
 #define RG_CONST const
+#define RG_EXACT precise
 #define RG_IN(T) in T
 #define RG_OUT(T) out T
 #define RG_INOUT(T) inout T

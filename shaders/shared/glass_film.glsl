@@ -3,6 +3,7 @@
 #ifndef RG_SHARED_GLASS_FILM_GLSL
 #define RG_SHARED_GLASS_FILM_GLSL
 #include "shared/compat.glsl"
+#include "shared/glass_beads.glsl"
 #include "shared/glass_types.glsl"
 #include "shared/hash.glsl"
 RG_SHARED_BEGIN
@@ -24,11 +25,15 @@ struct FilmStepInfo {
   float pin_m;           // see Surface in glass/water.h
   float front_m;
   float rupture_m;
-  float rupture_chance;  // of a texel in a step
+  float rupture_chance;  // of a texel in its turn to dry
   float evaporation_mps; // thickness lost per second
   int drops_allowed;     // 0: nothing is given to drops
+  float bead_mm3_per_pl; // the cube of a bead's base radius, see beadRadius_mm
+  float bead_drying_pl_mm; // what a bead loses in a turn to dry in still air, by its base radius
+  float bead_airing;     // moving air takes 1 + this sqrt(radius in mm) times as much
+  float unused;
 };
-RG_SIZE(FilmStepInfo, 48)
+RG_SIZE(FilmStepInfo, 64)
 
 // A texel as its neighbours see it.
 struct FilmCell {
@@ -117,16 +122,76 @@ RG_FN int evaporated_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(Fil
   return max(min(volume_pl, whole), 0);
 }
 
-// What a texel with such glass would give to the drops: what is too thick for a film, or all of a thin one that breaks.
-RG_FN int offeredBy_pl(int volume_pl, uint glass, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
-  float h_m = thickness_m(volume_pl, metric);
-  bool overfull = h_m > kOverfull_m, thin = h_m >= info.pin_m && h_m <= info.rupture_m;
-  bool breaks = thin && unitFloat(pcg(glass + info.step)) < info.rupture_chance;
-  int too_much = volume_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
-  return volume_pl <= 0 || info.drops_allowed == 0 ? 0 : overfull ? too_much : breaks ? volume_pl : 0;
+// Hu & Larson 2002, as for drops (glass/water.h), each bead being of the mean size. The last of them go at once, when a bead is no more than a
+// hemisphere of 0.03 mm.
+RG_CONST int kLeastBead_pl = 50;
+RG_FN int driedOfBeads_pl(RG_IN(Beads) beads, uint texel, RG_IN(FilmStepInfo) info) {
+  float radius_mm = beadRadius_mm(beads, info.bead_mm3_per_pl);
+  RG_EXACT float wish = float(beads.number) * info.bead_drying_pl_mm * radius_mm * (1.0f + info.bead_airing * sqrt(radius_mm));
+  int whole = int(floor(min(wish, float(kMostBeads_pl)) + unitFloat(pcg(~texel + pcg(info.step ^ info.pane)))));
+  return beads.volume_pl - whole < kLeastBead_pl * beads.number ? beads.volume_pl : whole;
 }
-RG_FN int offered_pl(int volume_pl, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
-  return offeredBy_pl(volume_pl, glassAt(texel, info), metric, info);
+
+// A texel's film and beads after what is done to them where they are.
+struct FilmTexel {
+  int film_pl; // -1: off the pane
+  Beads beads;
+  int dried_pl;
+  int offered_pl; // to the drops, of the beads where there are any
+};
+
+RG_CONST float kWhole_m = 0.5e-6f; // a thinner film dries before it breaks (unsourced)
+
+// Whether a film breaks up in this turn to dry. Glass of its own chance each time.
+RG_FN bool breaksUp(float h_m, uint glass, RG_IN(FilmStepInfo) info) {
+  return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(glass + info.step)) < info.rupture_chance;
+}
+
+RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, uint texel, uint glass, RG_IN(vec4) metric, bool dries, RG_IN(FilmStepInfo) info) {
+  FilmTexel t;
+  t.film_pl = film_pl;
+  t.beads = lying;
+  t.dried_pl = 0;
+  t.offered_pl = 0;
+  if (film_pl < 0) return t;
+  // A film that flows takes the beads along.
+  if (thickness_m(t.film_pl, metric) >= info.pin_m) {
+    t.film_pl += t.beads.volume_pl;
+    t.beads = noBeads();
+  }
+  if (dries) {
+    int film_dried_pl = evaporated_pl(t.film_pl, texel, metric, info);
+    int beads_dried_pl = driedOfBeads_pl(t.beads, texel, info);
+    t.film_pl -= film_dried_pl;
+    t.beads.volume_pl -= beads_dried_pl;
+    if (t.beads.volume_pl == 0) t.beads.number = 0;
+    t.dried_pl = film_dried_pl + beads_dried_pl;
+    float h_m = thickness_m(t.film_pl, metric);
+    if (breaksUp(h_m, glass, info)) {
+      int broken_pl = t.film_pl;
+      t.film_pl = 0;
+      t.beads = joinedBy(t.beads, broken_pl, beadsOfBrokenFilm(h_m, metric.z), t.film_pl);
+    }
+  }
+  // Where they are crowded neighbours run together, until there are as many as have room.
+  float room = beadsCovering(t.beads.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
+  if (room < float(t.beads.number)) t.beads.number = max(1, int(room));
+  if (t.beads.number == 1 && beadsCovering(t.beads.volume_pl, kFlooded, info.bead_mm3_per_pl, metric.z) < 1.0f) {
+    t.film_pl += t.beads.volume_pl;
+    t.beads = noBeads();
+  }
+  if (info.drops_allowed == 0) return t;
+  int too_much_pl = t.film_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
+  bool overfull = thickness_m(t.film_pl, metric) > kOverfull_m, alone = t.beads.number == 1 && room < 1.0f;
+  t.offered_pl = overfull ? too_much_pl : alone ? t.beads.volume_pl : 0;
+  return t;
+}
+// ... and after its tile's offer has gone to the drops.
+RG_FN FilmTexel without(RG_IN(FilmTexel) texel, int given_pl) {
+  FilmTexel t = texel;
+  if (t.beads.number > 0) t.beads = withoutPart(t.beads, given_pl);
+  else t.film_pl -= given_pl;
+  return t;
 }
 
 // share / 65536 of a volume, without 64-bit numbers.

@@ -27,28 +27,30 @@ RG_SIZE(GlassDropRecord, 48)
 
 // What a tile reports of one film step. Sums of 256 texels may pass 32 bits, so the film's is split: low 16 bits and the rest.
 struct FilmTile {
-  int event_texel;   // the texel that gave water to the drops, or -1
+  int event_texel;   // the texel that gave water to the drops, of its film or its beads, or -1
   int event_pl;      // how much
   uint film_low_pl;  // sum of (volume & 0xffff)
   uint film_high;    // sum of (volume >> 16)
   int drained_pl;
   int blown_pl;
   int evaporated_pl;
-  int unused;
+  uint beads_pl;     // of 256 texels of less than 2^24 each
 };
 RG_SIZE(FilmTile, 32)
 
 // CPU to GPU, in the order they happened.
 struct FilmAdd { int texel; int volume_pl; };             // rain, trails, drops that dissolve
 RG_SIZE(FilmAdd, 8)
+struct BeadAdd { int texel; int volume_pl; int number; }; // small impacts, what a splash throws about, pearls
+RG_SIZE(BeadAdd, 12)
 struct FilmTake { int texel; int share_65536; };          // a drop ran over this much of the texel; no texel twice in a step
 RG_SIZE(FilmTake, 8)
 struct RidgeAdd { int segment; int volume_pl; };          // a drop under a blade; segment = wiper slot * kBladeSegments + piece
 RG_SIZE(RidgeAdd, 8)
-// These three as the GPU has them: what happens to a texel in a step, in this order: share_65536 of its water is taken, for the step's take of this
-// number (-1: none), and added_pl is added. texel < 0: the ridge of segment -1 - texel gets added_pl.
-struct FilmChange { int texel; int added_pl; int share_65536; int take; };
-RG_SIZE(FilmChange, 16)
+// These four as the GPU has them: what happens to a texel in a step, in this order: share_65536 of its water is taken, for the step's take of this
+// number (-1: none), and added_pl is added to its film, `beads` of beads_pl to its beads. texel < 0: the ridge of segment -1 - texel gets added_pl.
+struct FilmChange { int texel; int added_pl; int share_65536; int take; int beads_pl; int beads; };
+RG_SIZE(FilmChange, 24)
 // The ridge's water goes to `count` texels of a list; where it is over_edge_pl or more, or count is 0: off the glass.
 struct RidgeLeave { int segment; int first; int count; int over_edge_pl; };
 RG_SIZE(RidgeLeave, 16)

@@ -16,9 +16,11 @@ class FilmReference {
   explicit FilmReference(const glass::PaneMap& map)
       : map_(map), columns_(map.grid().size.x), rows_(map.grid().size.y), ridge_(glass::kRidgePieces, 0) {
     for (int i = 0; i < map.texelCount(); ++i) film.push_back(map.inside(i) ? 0 : -1);
+    beads.assign(film.size(), 0);
   }
 
   std::vector<int32_t> film;
+  std::vector<uint32_t> beads;  // packed
 
   glass::FilmReport run(const glass::FilmOrder& order) {
     glass::FilmReport report;
@@ -26,9 +28,14 @@ class FilmReference {
     for (const shared::FilmTake& take : order.takes) {
       const int taken = shared::shareOf(at(take.texel), take.share_65536);
       at(take.texel) -= taken;
-      report.taken_pl.push_back(taken);
+      const shared::Beads lying = beadsAt(take.texel);
+      const int taken_beads = shared::shareOf(lying.volume_pl, take.share_65536);
+      lay(take.texel, shared::withoutPart(lying, taken_beads));
+      report.taken_pl.push_back(taken + taken_beads);
     }
     for (const shared::FilmAdd& add : order.adds) at(add.texel) += add.volume_pl;
+    for (const shared::BeadAdd& add : order.bead_adds)
+      lay(add.texel, shared::joinedBy(beadsAt(add.texel), add.volume_pl, add.number, at(add.texel)));
     for (const shared::RidgeAdd& add : order.ridge_adds) ridge(add.segment) += add.volume_pl;
     for (const glass::SweepOrder& sweep : order.sweeps) this->sweep(sweep, order);
     for (const shared::RidgeLeave& leave : order.leaves) report.wiped_pl += this->leave(leave, order);
@@ -39,6 +46,10 @@ class FilmReference {
 
  private:
   int32_t& at(int texel) { return film[static_cast<size_t>(texel)]; }
+  shared::Beads beadsAt(int texel) const { return shared::beadsOf(beads[static_cast<size_t>(texel)]); }
+  void lay(int texel, const shared::Beads& lying) {
+    beads[static_cast<size_t>(texel)] = shared::packedBeads(lying);
+  }
   int32_t& ridge(int segment) { return ridge_[static_cast<size_t>(segment)]; }
 
   void sweep(const glass::SweepOrder& sweep, const glass::FilmOrder& order) {
@@ -48,9 +59,11 @@ class FilmReference {
         const int i = range.first + (sweep.backwards ? range.count - 1 - k : k);
         const shared::SweptTexel& entry = (*sweep.swept)[static_cast<size_t>(i)];
         int32_t& carried = ridge(sweep.first_piece + piece);
-        const int left = shared::leftBehind_pl(at(entry.texel), entry, carried);
-        carried += at(entry.texel) - left;
+        const int water = at(entry.texel) + beadsAt(entry.texel).volume_pl;
+        const int left = shared::leftBehind_pl(water, entry, carried);
+        carried += water - left;
         at(entry.texel) = left;
+        lay(entry.texel, shared::noBeads());
       }
     }
     for (int k = 0; k < shared::kLevellings; ++k) {
@@ -94,7 +107,7 @@ class FilmReference {
     }
     const int tiles_across = map_.tileCount().x;
     report.tiles.assign(map_.tileArea_m2().size(), shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
-    std::vector<int> offers(film.size(), 0);
+    std::vector<shared::FilmTexel> settled(film.size());
     for (int i = 0; i < map_.texelCount(); ++i) {
       if (cells[static_cast<size_t>(i)].volume_pl < 0) continue;
       const int x = i % columns_, y = i / columns_;
@@ -102,29 +115,34 @@ class FilmReference {
           report.tiles[static_cast<size_t>(y / shared::kTileSize * tiles_across + x / shared::kTileSize)];
       const shared::vec4 metric = field(map_.nodeMetric(), x, y);
       const auto texel = static_cast<uint32_t>(i);
-      int volume = flowed(i, cells, order.info, tile);
-      const auto tile_index = static_cast<uint32_t>(&tile - report.tiles.data());
-      const int dried = shared::driesNow(tile_index, order.info)
-                            ? shared::evaporated_pl(volume, texel, metric, order.info)
-                            : 0;
-      tile.evaporated_pl += dried;
-      volume -= dried;
-      at(i) = volume;
-      offers[static_cast<size_t>(i)] = shared::offered_pl(volume, texel, metric, order.info);
-      if (offers[static_cast<size_t>(i)] > tile.event_pl) {
-        tile.event_pl = offers[static_cast<size_t>(i)];
+      const int volume = flowed(i, cells, order.info, tile);
+      const bool dries = shared::driesNow(static_cast<uint32_t>(&tile - report.tiles.data()), order.info);
+      shared::FilmTexel& now = settled[static_cast<size_t>(i)];
+      now = shared::settled(volume, beadsAt(i), texel, shared::glassAt(texel, order.info), metric, dries,
+                            order.info);
+      tile.evaporated_pl += now.dried_pl;
+      put(i, now);
+      if (now.offered_pl > tile.event_pl) {
+        tile.event_pl = now.offered_pl;
         tile.event_texel = i;
       }
     }
     for (const shared::FilmTile& tile : report.tiles) {
-      if (tile.event_texel >= 0) at(tile.event_texel) -= tile.event_pl;
+      if (tile.event_texel >= 0)
+        put(tile.event_texel, shared::without(settled[static_cast<size_t>(tile.event_texel)], tile.event_pl));
     }
     for (int i = 0; i < map_.texelCount(); ++i) {
       shared::FilmTile& tile = report.tiles[static_cast<size_t>(
           i / columns_ / shared::kTileSize * tiles_across + i % columns_ / shared::kTileSize)];
       tile.film_low_pl += static_cast<uint32_t>(std::max(at(i), 0)) & 0xffffu;
       tile.film_high += static_cast<uint32_t>(std::max(at(i), 0)) >> 16u;
+      tile.beads_pl += static_cast<uint32_t>(beadsAt(i).volume_pl);
     }
+  }
+
+  void put(int i, const shared::FilmTexel& texel) {
+    at(i) = texel.film_pl;
+    lay(i, texel.beads);
   }
 
   int flowed(int i, const std::vector<shared::FilmCell>& cells, const shared::FilmStepInfo& info,

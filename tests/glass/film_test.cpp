@@ -102,6 +102,15 @@ TEST_F(Film, drainsAsJeffreysSays) {
   }
 }
 
+std::string told(const shared::FilmTile& tile) {
+  std::string text;
+  for (const int v :
+       {tile.event_texel, tile.event_pl, static_cast<int>(tile.film_low_pl), static_cast<int>(tile.film_high),
+        tile.drained_pl, tile.blown_pl, tile.evaporated_pl, static_cast<int>(tile.beads_pl)})
+    text += std::to_string(v) + " ";
+  return text;
+}
+
 // The GPU and the CPU run one text; their integers agree to the last one, orders of all kinds included.
 TEST_F(Film, isTheSameOnGpuAndCpu) {
   const Mesh mesh = windscreen(0.5, 0.4, rad(30), 0.03);
@@ -136,7 +145,8 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
       ASSERT_EQ(got.wiped_pl, expected.wiped_pl);
       for (size_t t = 0; t < got.tiles.size(); ++t) {
         ASSERT_EQ(std::memcmp(&got.tiles[t], &expected.tiles[t], sizeof(shared::FilmTile)), 0)
-            << "tile " << t << " step " << order.step;
+            << "tile " << t << " step " << order.step << ": " << told(got.tiles[t]) << ", not "
+            << told(expected.tiles[t]);
         events += expected.tiles[t].event_texel >= 0 ? 1 : 0;
       }
       for (const int v : expected.taken_pl) took += v;
@@ -147,6 +157,7 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
     }
   }
   EXPECT_EQ(gpu.readFilm(), reference.film);
+  EXPECT_EQ(gpu.readBeads(), reference.beads);
   // All kinds of orders were there.
   EXPECT_GT(took, 0);
   EXPECT_GT(swept, 0);
@@ -189,6 +200,7 @@ TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
     ASSERT_EQ(gpu.collect(true).size(), 1u);
     reference.run(order);
     ASSERT_EQ(gpu.readFilm(), reference.film) << "step " << step;
+    ASSERT_EQ(gpu.readBeads(), reference.beads) << "step " << step;
   }
 }
 

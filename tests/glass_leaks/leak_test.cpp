@@ -30,7 +30,8 @@ class Leak : public GlTest {
 TEST_F(Leak, ofEachKernelIsSeenByTheLedger) {
   EXPECT_EQ(missing(glass::FilmKernel::none, glass::LeakyKernel::none), 0.0);
   using Gpu = glass::FilmKernel;
-  for (const Gpu kernel : {Gpu::take, Gpu::add, Gpu::ridge, Gpu::sweep, Gpu::leave, Gpu::step}) {
+  for (const Gpu kernel :
+       {Gpu::take, Gpu::add, Gpu::ridge, Gpu::sweep, Gpu::leave, Gpu::step, Gpu::bead_add, Gpu::bead}) {
     EXPECT_NE(missing(kernel, glass::LeakyKernel::none), 0.0) << "GPU kernel " << static_cast<int>(kernel);
   }
   using Cpu = glass::LeakyKernel;

@@ -2,7 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+
+#include "glass/water.h"
+#include "shared/glass_beads.glsl"
 
 namespace rg::test {
 
@@ -92,6 +96,27 @@ void FlatPane::putFilm(const std::function<double(double, double)>& thickness_m)
   film_ = gl::Texture2D(gl_, GL_R32I, texels_, texels_);
   film_.write(0, 0, 0, 0, texels_, texels_, GL_RED_INTEGER, GL_INT, volume.data());
   pane.film = film_.name();
+}
+
+void FlatPane::putBeads(const std::function<int(double, double)>& number, double share, double contact_rad) {
+  const auto texels = static_cast<size_t>(texels_);
+  const double texel_m = size_m_ / texels_;
+  std::vector<uint32_t> lying(texels * texels, 0);
+  for (size_t k = 0; k < lying.size(); ++k) {
+    const int count = number((static_cast<double>(k % texels) + 0.5) * texel_m - 0.5 * size_m_,
+                             (static_cast<double>(k / texels) + 0.5) * texel_m - 0.5 * size_m_);
+    if (count == 0) continue;
+    shared::Beads beads{};
+    beads.number = count;
+    const double radius_m = std::sqrt(share * texel_m * texel_m / (glm::pi<double>() * count));
+    beads.volume_pl =
+        static_cast<int>(glass::picolitres(count * glass::capShape(contact_rad) * std::pow(radius_m, 3.0)));
+    lying[k] = shared::packedBeads(beads);
+  }
+  beads_ = gl::Texture2D(gl_, GL_R32UI, texels_, texels_);
+  beads_.write(0, 0, 0, 0, texels_, texels_, GL_RED_INTEGER, GL_UNSIGNED_INT, lying.data());
+  pane.beads = beads_.name();
+  pane.bead_contact_rad = static_cast<float>(contact_rad);
 }
 
 Picture draw(const GladGLContext& gl, glass::GlassLook& look, const Scene& scene,

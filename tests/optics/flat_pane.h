@@ -25,6 +25,8 @@ class FlatPane {
   void putDrops(std::span<const shared::GlassDropRecord> drops);
   // Thickness in m at a place (u, v) from the pane's middle.
   void putFilm(const std::function<double(double u_m, double v_m)>& thickness_m);
+  // In each texel so many beads whose bases cover this share of the glass.
+  void putBeads(const std::function<int(double u_m, double v_m)>& number, double share, double contact_rad);
   // A spherical cap at (u, v) from the pane's middle, round.
   shared::GlassDropRecord cap(double u_m, double v_m, double base_radius_m, double contact_rad) const;
 
@@ -42,7 +44,7 @@ class FlatPane {
   double across_;  // +1: u runs to the right
   int texels_;
   gl::Buffer vertices_, indices_, drops_;
-  gl::Texture2D position_, metric_, film_;
+  gl::Texture2D position_, metric_, film_, beads_;
   gl::Texture2DArray frame_;
 };
 

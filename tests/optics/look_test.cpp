@@ -101,6 +101,8 @@ TEST_F(Look, inAUniformWorldWaterIsInvisible) {
   std::vector<GlassDropRecord> drops = scatter(pane, 150, 3e-3, glm::radians(35.0), 2);
   for (const GlassDropRecord& drop : scatter(pane, 150, 2e-3, glm::radians(95.0), 3)) drops.push_back(drop);
   for (size_t k = 0; k < drops.size(); k += 3) drops[k].elongation = 1.8f;
+  // Left of the middle such as are seen one by one, right of it such as are not.
+  pane.putBeads([](double u, double) { return u < 0.0 ? 2 : 40; }, 0.3, glm::radians(25.0));
   pane.putDrops(drops);
   const gl::TextureCube cube = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(1.0f); });
   Scene scene = inside({640, 360});
@@ -257,6 +259,52 @@ TEST_F(Look, dropsBelowAPixelCoverAsMuchAsTheyAre) {
   ASSERT_GT(resolved, 0.002);
   EXPECT_NEAR(taken({320, 180}) / resolved, 1.0, 0.25);  // a box a pixel wide stands for a disc
   EXPECT_NEAR(taken({160, 90}) / resolved, 1.0, 0.25);
+}
+
+// Beads that are dark take as much light as they cover, whatever a pixel is; those too small to be seen one
+// by one blur and take none.
+TEST_F(Look, beadsCoverAsMuchAsTheyAre) {
+  FlatPane pane(gl, kRake, 0.8, 256);
+  const double share = 0.25;
+  const gl::TextureCube black = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(0.0f); });
+  const auto taken = [&](int number, glm::ivec2 size_px) {
+    pane.putBeads([&](double, double) { return number; }, share, glm::radians(25.0));
+    Scene scene = inside(size_px);
+    scene.light.environment_cube = black.name();
+    scene.picture = paint(size_px, [](int, int) { return glm::vec3(1.0f); });
+    return lightTaken(draw(gl, look, scene, {&pane.pane, 1}),
+                      draw(gl, look, scene, {}));  // the pane fills the picture
+  };
+  // A pair's sizes differ, and cells cut the largest: their share is less than that of equal ones by some per
+  // cent.
+  for (const int number : {1, 4}) EXPECT_NEAR(taken(number, {1920, 1080}) / share, 1.0, 0.12) << number;
+  EXPECT_NEAR(taken(1, {960, 540}) / share, 1.0, 0.12);
+  EXPECT_LT(taken(64, {160, 90}), 0.01);
+}
+
+// A lone bead shows the world upside down, as a drop does.
+TEST_F(Look, aBeadShowsTheSkyBelowAndTheGroundAbove) {
+  FlatPane pane(gl, glm::radians(90.0), 0.8, 64);
+  pane.putBeads([](double u, double v) { return std::abs(u) < 0.1 && std::abs(v) < 0.1 ? 1 : 0; }, 0.4,
+                glm::radians(60.0));
+  const gl::TextureCube sky =
+      makeCube(gl, 32, [](const glm::vec3& d) { return glm::vec3(d.z > 0.0f ? 1.0f : 0.0f); });
+  Scene scene = inside({1280, 720});
+  scene.light.environment_cube = sky.name();
+  scene.picture = paint(scene.size_px, [](int, int y) { return glm::vec3(y > 360 ? 1.0f : 0.0f); });
+  const Picture with = draw(gl, look, scene, {&pane.pane, 1}), without = draw(gl, look, scene, {});
+  int brighter_below = 0, darker_above = 0, other = 0;
+  for (int y = 0; y < 720; ++y) {
+    for (int x = 0; x < 1280; ++x) {
+      const float change = with.at(x, y).x - without.at(x, y).x;
+      if (std::abs(change) < 0.5f || std::abs(y - 360) < 3) continue;
+      (y > 360 ? darker_above : brighter_below) += 1;
+      other += (y > 360) == (change > 0.0f) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(brighter_below, 5000);
+  EXPECT_GT(darker_above, 5000);
+  EXPECT_EQ(other, 0);
 }
 
 TEST_F(Look, aPaneSeenFromOutsideShowsTheSkyInItsDryGlass) {

@@ -60,6 +60,27 @@ int Drops::touching(const DropWorld& world, int slot) const {
   return -1;
 }
 
+// The first drop that a place lies in; -1: none.
+int Drops::covering(const DropWorld& world, glm::dvec2 place_m) const {
+  const glm::dvec2 metres = world.forces.at(world.map, place_m).metres;
+  const glm::ivec2 low = glm::clamp(glm::ivec2((place_m - largest_radius_m_ / metres) / kCell_m),
+                                    glm::ivec2(0), cell_count_ - 1);
+  const glm::ivec2 high = glm::clamp(glm::ivec2((place_m + largest_radius_m_ / metres) / kCell_m),
+                                     glm::ivec2(0), cell_count_ - 1);
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      for (int slot = cells_[static_cast<size_t>(y * cell_count_.x + x)]; slot >= 0;
+           slot = slots_.items[static_cast<size_t>(slot)].next) {
+        const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+        const glm::dvec2 d = (drop.place_m - place_m) * metres;
+        const double radius_m = static_cast<double>(drop.base_radius_m);
+        if (glm::dot(d, d) < radius_m * radius_m) return slot;
+      }
+    }
+  }
+  return -1;
+}
+
 // The larger one lives on.
 int Drops::unite(const DropWorld& world, int a, int b) {
   if (slots_.items[static_cast<size_t>(b)].volume_pl > slots_.items[static_cast<size_t>(a)].volume_pl)

@@ -16,6 +16,7 @@ constexpr double kFastest_mps =
     1.0;  // nothing faster than 0.7 m/s was seen sliding (Li et al. 2023); wind may add
 constexpr double kMeander = 0.35;  // tangent of the largest turn that uneven glass gives a path (unsourced)
 constexpr double kMeanderCell_m = 6e-3;
+constexpr int kMostAside = 2;  // texels
 
 // Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
 // "depinning by wind".
@@ -100,13 +101,26 @@ void Drops::slide(const DropWorld& world, int slot) {
   if (overEdge(world, slot, texel)) return;
   if (texel != drop.texel) {
     drop.texel = texel;
-    if (world.film.thickness_m(texel) > 0.0) {
-      world.film.take(texel, width_m / world.map.grid().texel_m, static_cast<uint32_t>(slot), drop.life);
-    }
+    takeAcross(world, slot, width_m);
   }
   if (!drop.changed) changed_.push_back(slot);
   drop.changed = true;
   leaveTrail(world, drop, speed * kTickSeconds, speed, push.metres);
+}
+
+// What lies across its way: as far to both sides as it is wide.
+void Drops::takeAcross(const DropWorld& world, int slot, double width_m) {
+  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const double texel_m = world.map.grid().texel_m;
+  const glm::dvec2 side(-drop.heading.y, drop.heading.x);
+  const int reach = std::min(static_cast<int>(0.5 * width_m / texel_m + 0.5), kMostAside);
+  for (int k = -reach; k <= reach; ++k) {
+    const int texel = k == 0 ? drop.texel : world.map.texelAt(drop.place_m + k * texel_m * side);
+    if (texel < 0 || !world.film.watered(texel)) continue;
+    const double share = std::min(1.0, 0.5 * width_m / texel_m + 0.5 - std::abs(k));
+    world.film.take(texel, k == 0 ? std::min(1.0, width_m / texel_m) : share, static_cast<uint32_t>(slot),
+                    drop.life);
+  }
 }
 
 // Over the upper edge it is blown off, over any other it drains.
@@ -145,7 +159,7 @@ void Drops::leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres) {
   drop.since_pearl_m = 0.0f;
   const double mean_rad = 0.5 * (surface_.advancing_rad + surface_.receding_rad);
   const int64_t pearl_pl = picolitres(capShape(mean_rad) * radius_m * radius_m * radius_m);
-  if (pearl_pl > drop.volume_pl / 20 || pearl_pl < 200 || 10 * live_ > 9 * slots_.capacity_) return;
+  if (pearl_pl > drop.volume_pl / 20 || pearl_pl < 200) return;
   const double back_m =
       static_cast<double>(drop.base_radius_m) * std::sqrt(static_cast<double>(drop.elongation)) +
       1.5 * radius_m;
@@ -155,8 +169,11 @@ void Drops::leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres) {
   const glm::dvec2 place =
       drop.place_m + (-back_m * heading + aside * glm::dvec2(-heading.y, heading.x)) / metres;
   if (world.map.texelAt(place) < 0) return;
+  const int64_t left_pl = passed(LeakyKernel::trail, pearl_pl);
   // Storage does not move: slots are reserved up to the capacity.
-  if (add(world, place, passed(LeakyKernel::trail, pearl_pl), radius_m, h) >= 0) drop.volume_pl -= pearl_pl;
+  const bool lies = lieAsBead(world, place, left_pl) ||
+                    (10 * live_ <= 9 * slots_.capacity_ && add(world, place, left_pl, radius_m, h) >= 0);
+  if (lies) drop.volume_pl -= pearl_pl;
 }
 
 }  // namespace rg::glass

@@ -1,10 +1,12 @@
 #include "glass/drops.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
 #include "glass/random.h"
+#include "shared/glass_beads.glsl"
 #include "tick.h"
 
 namespace rg::glass {
@@ -12,6 +14,19 @@ namespace {
 
 constexpr int64_t kLeastDrop_pl = 50;  // a hemisphere of 0.03 mm: dries in a blink
 constexpr int kAgeStride = 16;         // ticks from one look at what a drop loses to the next
+constexpr size_t kFragments = 8;       // of a drop that shatters (unsourced)
+// A thinner lamella breaks up before it can draw together: as thin as films break on uncoated glass.
+constexpr double kThinnestLamella_m = 20e-6;
+
+double weber(const Impact& impact) {
+  return kRho_kg_m3 * impact.speed_mps * impact.speed_mps * impact.diameter_m / kGamma_n_m;
+}
+
+// A drop spreads over D We^(1/4) (Clanet, Beguin, Richard & Quere 2004), so the lamella is 2/3 D We^(-1/2)
+// thick.
+bool shatters(const Impact& impact) {
+  return 2.0 / 3.0 * impact.diameter_m < kThinnestLamella_m * std::sqrt(weber(impact));
+}
 
 }  // namespace
 
@@ -21,6 +36,7 @@ Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
       cell_count_(glm::ceil(glm::dvec2(map.grid().size) * map.grid().texel_m / kCell_m)),
       shape_advancing_(capShape(surface.advancing_rad)),
       shape_receding_(capShape(surface.receding_rad)),
+      shape_mean_(capShape(meanAngle(surface))),
       hold_per_m_(retention_n(1.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad))) {
   slots_.capacity_ = capacity;
   slots_.items.reserve(capacity);
@@ -133,28 +149,97 @@ int64_t Drops::cut(int slot, int64_t keep_pl) {
   return taken_pl;
 }
 
-// When slots run short the smallest sizes are not kept as drops any more, the limit rising from 0 at half
-// full to 2 mm at full.
+// When slots run short larger and larger sizes lie as beads, the limit rising from 0 at half full to 2 mm at
+// full.
 void Drops::impact(const DropWorld& world, const Impact& impact) {
   const int64_t volume_pl = passed(LeakyKernel::impact, impact.volume_pl);
   const double used =
       slots_.capacity_ == 0 ? 1.0 : static_cast<double>(live_) / static_cast<double>(slots_.capacity_);
   const double least_diameter_m = 4e-3 * std::max(0.0, used - 0.5);
   const double wet = world.film.attached() ? world.film.thickness_m(impact.texel) / surface_.wetting_m : 0.0;
+  const double chance = static_cast<double>(shared::unitFloat(impact.hash));
+  const bool short_of_slots = impact.diameter_m < least_diameter_m, no_beads = !world.film.attached();
+  if (slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0 || (short_of_slots && no_beads)) {
+    // The splash's lamella spreads it over some five diameters.
+    world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres,
+                      2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
+    return;
+  }
+  const int under = covering(world, impact.place_m);
+  if (under >= 0) {
+    Drop& drop = slots_.items[static_cast<size_t>(under)];
+    drop.volume_pl += volume_pl;
+    settle(drop);
+    if (!drop.changed) changed_.push_back(under);
+    drop.changed = true;
+    return;
+  }
+  if (lieAsBead(world, impact.place_m, volume_pl)) return;
+  if (short_of_slots || (shatters(impact) && !no_beads)) {
+    shatter(world, impact, volume_pl);
+    return;
+  }
   // A falling drop spreads until its edge has some angle between both: the more so, the rougher it met the
   // glass.
-  const double chance = static_cast<double>(shared::unitFloat(impact.hash));
   const double angle =
       surface_.receding_rad + (surface_.advancing_rad - surface_.receding_rad) * (0.35 + 0.6 * chance);
-  const bool to_film =
-      impact.diameter_m < least_diameter_m || slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0;
-  if (!to_film) {
-    const double radius_m = std::cbrt(cubicMetres(volume_pl) / capShape(angle));
-    if (add(world, impact.place_m, volume_pl, radius_m, impact.hash) >= 0) return;
+  const double radius_m = std::cbrt(cubicMetres(volume_pl) / capShape(angle));
+  const int slot = add(world, impact.place_m, volume_pl, radius_m, impact.hash);
+  if (slot >= 0)
+    takeUnder(world, slot);
+  else
+    shatter(world, impact, volume_pl);
+}
+
+// A volume that a texel holds as a lone bead does not become a drop, where there is a film to hold it.
+bool Drops::lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl) {
+  const int texel = world.map.texelAt(place_m);
+  if (texel < 0 || !world.film.attached()) return false;
+  const double base_m2 =
+      static_cast<double>(shared::kCrowded) * static_cast<double>(world.map.texel(texel).area_m2);
+  const double largest_m3 = shape_mean_ * std::pow(base_m2 / std::numbers::pi, 1.5);
+  if (cubicMetres(volume_pl) > largest_m3) return false;
+  world.film.addBeads(texel, volume_pl, 1);
+  return true;
+}
+
+// Fragments lie anywhere in the lamella's circle, of all sizes: their shares of the volume fall as intervals
+// of a Poisson process do.
+void Drops::shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl) {
+  const double reach_m = 0.5 * impact.diameter_m * std::sqrt(std::sqrt(weber(impact)));
+  const glm::dvec2 metres = world.forces.at(world.map, impact.place_m).metres;
+  std::array<double, kFragments> upTo{};
+  double sum = 0.0;
+  uint32_t h = impact.hash;
+  for (double& share : upTo) {
+    h = shared::pcg(h + 1u);
+    share = sum -= std::log(static_cast<double>(shared::openUnitFloat(h)));
   }
-  // The splash's lamella spreads it over some five diameters.
-  world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres,
-                    2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
+  int64_t left_pl = volume_pl;
+  for (size_t i = 0; i < kFragments; ++i) {
+    const auto rest_pl = static_cast<int64_t>(static_cast<double>(volume_pl) * (1.0 - upTo[i] / sum));
+    const int64_t fragment_pl = i + 1 == kFragments ? left_pl : left_pl - std::min(rest_pl, left_pl);
+    left_pl -= fragment_pl;
+    h = shared::pcg(h + 1u);
+    const double way_m = reach_m * std::sqrt(static_cast<double>(shared::unitFloat(h)));
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(shared::unitFloat(shared::pcg(h)));
+    glm::dvec2 place = impact.place_m + way_m / metres * glm::dvec2(std::cos(turn), std::sin(turn));
+    if (world.map.texelAt(place) < 0) place = impact.place_m;
+    if (fragment_pl <= 0 || lieAsBead(world, place, fragment_pl)) continue;
+    const double radius_m = std::cbrt(cubicMetres(fragment_pl) / shape_mean_);
+    if (add(world, place, fragment_pl, radius_m, h) < 0)
+      world.film.spread(place, metres, radius_m + 0.5 * world.map.grid().texel_m, fragment_pl);
+  }
+}
+
+// A drop takes the beads that lie where it comes to lie.
+void Drops::takeUnder(const DropWorld& world, int slot) {
+  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  if (!world.film.watered(drop.texel)) return;
+  const double radius_m = static_cast<double>(drop.base_radius_m);
+  const double share =
+      std::numbers::pi * radius_m * radius_m / static_cast<double>(world.map.texel(drop.texel).area_m2);
+  world.film.take(drop.texel, share, static_cast<uint32_t>(slot), drop.life);
 }
 
 void Drops::give(const DropWorld& world, const Taker& taker, int64_t volume_pl) {

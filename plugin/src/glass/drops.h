@@ -68,7 +68,8 @@ class Drops {
   // unless `as_told`. Returns its slot, or -1 when there is no room (nothing happened).
   int add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed,
           bool as_told = false);
-  // A raindrop: a new drop, or water for the film where that is thick or slots run short.
+  // A raindrop: joins the drop it falls on; lies as a bead when it is small; breaks up into beads when it is
+  // fast, or where slots run short; is film where that is thick; else a new drop.
   void impact(const DropWorld& world, const Impact& impact);
   // Water a drop ran over; goes to the film again when the drop is no more.
   void give(const DropWorld& world, const Taker& taker, int64_t volume_pl);
@@ -93,7 +94,12 @@ class Drops {
   static bool mayMove(const DropWorld& world, const Drop& drop);
   void leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres);
   void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres);
+  void takeAcross(const DropWorld& world, int slot, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);
+  void shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl);
+  bool lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl);
+  void takeUnder(const DropWorld& world, int slot);
+  int covering(const DropWorld& world, glm::dvec2 place_m) const;
   int touching(const DropWorld& world, int slot) const;
   int unite(const DropWorld& world, int a, int b);
   void dry(const DropWorld& world, int slot);
@@ -110,8 +116,8 @@ class Drops {
   glm::ivec2 cell_count_{0};
   std::vector<int32_t> changed_;
   uint32_t live_ = 0;
-  double shape_advancing_, shape_receding_;  // V / R^3 at these angles
-  double hold_per_m_;                        // retention for a metre of width, N/m
+  double shape_advancing_, shape_receding_, shape_mean_;  // V / R^3 at these angles
+  double hold_per_m_;                                     // retention for a metre of width, N/m
   double largest_radius_m_ = 0.0;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 4 * sizeof(int32_t);                // TileState in film_buffers.glsl
+constexpr size_t kTileStateBytes = 5 * sizeof(int32_t);                // TileState in film_buffers.glsl
 constexpr std::array<uint32_t, 8> kNoneAwake{0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
 constexpr size_t kRidgeBytes = (kRidgePieces + 2) * sizeof(int32_t);  // and two parts of what is wiped off
@@ -23,7 +23,8 @@ struct UploadLayout {
     info = next(sizeof(shared::FilmStepInfo));
     drive = next(order.drive.size() * sizeof(shared::vec4));
     changes =
-        next((order.takes.size() + order.adds.size() + order.ridge_adds.size()) * sizeof(shared::FilmChange));
+        next((order.takes.size() + order.adds.size() + order.bead_adds.size() + order.ridge_adds.size()) *
+             sizeof(shared::FilmChange));
     ranges = next(order.sweep_ranges.size() * sizeof(shared::SweptRange));
     leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
     texels = next(order.leave_texels.size() * sizeof(int));
@@ -74,6 +75,8 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       programs_(std::move(programs)),
       map_(map),
       tiles_(map.tileArea_m2().size()),
+      beads_(gl, tiles_ * kTileTexels * sizeof(uint32_t)),
+      beads_strips_(gl),
       ridges_(gl, kRidgeBytes),
       states_(gl, tiles_ * kTileStateBytes),
       awake_(gl, sizeof kNoneAwake + tiles_ * sizeof(int32_t)),
@@ -81,6 +84,7 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       metric_nodes_(gl),
       drive_nodes_(gl),
       picture_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
+      beads_picture_(gl, GL_R32UI, map.grid().size.x, map.grid().size.y),
       change_of_(static_cast<size_t>(map.texelCount()), -1) {
   metric_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), metric_, 0, metric_.bytes());
   for (size_t i = 0; i < film_.size(); ++i) {
@@ -88,6 +92,7 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
     film_strips_[i] = gl::BufferTexture(gl);
     film_strips_[i].show(GL_RGBA32I, shared::kStripSize * sizeof(int32_t), film_[i], 0, film_[i].bytes());
   }
+  beads_strips_.show(GL_RGBA32UI, shared::kStripSize * sizeof(uint32_t), beads_, 0, beads_.bytes());
   clear();
 }
 
@@ -104,11 +109,12 @@ void FilmGl::clear() {
     if (map_.inside(i)) dry[place(i)] = 0;
   }
   for (gl::Buffer& film : film_) film.write(0, std::span<const int32_t>(dry));
+  beads_.zero();
   ridges_.zero();
   states_.zero();
   awake_.write(0, std::span<const uint32_t>(kNoneAwake));
   dry_ = true;
-  picture_is_old_ = true;
+  picture_is_old_ = beads_picture_is_old_ = true;
 }
 
 void FilmGl::run(std::vector<FilmOrder>&& orders) {
@@ -142,7 +148,7 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
   const ReportLayout report(tiles_);
   for (size_t i = 0; i < orders.size(); ++i) {
     if (orders[i].clear) clear();
-    if (!orders[i].adds.empty() || !orders[i].ridge_adds.empty()) {
+    if (!orders[i].adds.empty() || !orders[i].bead_adds.empty() || !orders[i].ridge_adds.empty()) {
       dry_ = false;
       watered_step_ = orders[i].step;
     }
@@ -158,22 +164,29 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
 // What happens to a texel in a step comes together: what is taken from it, then what it is given.
 std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
   std::vector<shared::FilmChange> changes;
-  changes.reserve(order.takes.size() + order.adds.size() + order.ridge_adds.size());
+  changes.reserve(order.takes.size() + order.adds.size() + order.bead_adds.size() + order.ridge_adds.size());
+  const auto of = [&](int texel) -> shared::FilmChange& {
+    int& known = change_of_[static_cast<size_t>(texel)];
+    if (known < 0) {
+      known = static_cast<int>(changes.size());
+      changes.push_back({texel, 0, 0, -1, 0, 0});
+    }
+    return changes[static_cast<size_t>(known)];
+  };
   for (const shared::FilmTake& take : order.takes) {
-    const auto number = static_cast<int>(changes.size());
-    change_of_[static_cast<size_t>(take.texel)] = number;
-    changes.push_back({take.texel, 0, take.share_65536, number});
+    shared::FilmChange& change = of(take.texel);
+    change.share_65536 = take.share_65536;
+    change.take = static_cast<int>(&take - order.takes.data());
   }
-  for (const shared::FilmAdd& add : order.adds) {
-    const int known = change_of_[static_cast<size_t>(add.texel)];
-    if (known >= 0)
-      changes[static_cast<size_t>(known)].added_pl = add.volume_pl;
-    else
-      changes.push_back({add.texel, add.volume_pl, 0, -1});
+  for (const shared::FilmAdd& add : order.adds) of(add.texel).added_pl = add.volume_pl;
+  for (const shared::BeadAdd& add : order.bead_adds) {
+    shared::FilmChange& change = of(add.texel);
+    change.beads_pl = add.volume_pl;
+    change.beads = add.number;
   }
-  for (const shared::FilmTake& take : order.takes) change_of_[static_cast<size_t>(take.texel)] = -1;
+  for (const shared::FilmChange& change : changes) change_of_[static_cast<size_t>(change.texel)] = -1;
   for (const shared::RidgeAdd& add : order.ridge_adds)
-    changes.push_back({-1 - add.segment, add.volume_pl, 0, -1});
+    changes.push_back({-1 - add.segment, add.volume_pl, 0, -1, 0, 0});
   return changes;
 }
 
@@ -218,6 +231,7 @@ void FilmGl::runStep(const FilmOrder& order, size_t changes, const Batch& batch,
   bind(1, ridges_, 0, kRidgeBytes);
   bind(3, film_[turn_], 0, film_[turn_].bytes());
   bind(5, states_, 0, tiles_ * kTileStateBytes);
+  bind(6, beads_, 0, beads_.bytes());
   if (changes > 0) {
     orders(at.changes, changes * sizeof(shared::FilmChange));
     bind(2, batch.report, report_at + report.taken, kMostTakes * sizeof(int));
@@ -255,6 +269,7 @@ void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, s
   image(0, film_strips_[turn_], GL_RGBA32I);
   image(1, metric_nodes_, GL_RGBA32F);
   image(2, drive_nodes_, GL_RGBA32F);
+  image(3, beads_strips_, GL_RGBA32UI);
   gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
                       static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, film_[1 - turn_].name());
@@ -268,17 +283,25 @@ void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, s
   gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
   turn_ = 1 - turn_;
-  picture_is_old_ = true;
+  picture_is_old_ = beads_picture_is_old_ = true;
 }
 
 const gl::Texture2D& FilmGl::picture() {
-  if (!std::exchange(picture_is_old_, false)) return picture_;
-  gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, film_[turn_].name());
+  if (std::exchange(picture_is_old_, false)) show(film_[turn_], GL_INT, picture_);
+  return picture_;
+}
+
+const gl::Texture2D& FilmGl::beadsPicture() {
+  if (std::exchange(beads_picture_is_old_, false)) show(beads_, GL_UNSIGNED_INT, beads_picture_);
+  return beads_picture_;
+}
+
+void FilmGl::show(const gl::Buffer& texels, GLenum type, gl::Texture2D& picture) {
+  gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, texels.name());
   gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, map_.tileCount().x * shared::kTileSize);
-  picture_.write(0, 0, 0, 0, picture_.width(), picture_.height(), GL_RED_INTEGER, GL_INT, nullptr);
+  picture.write(0, 0, 0, 0, picture.width(), picture.height(), GL_RED_INTEGER, type, nullptr);
   gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  return picture_;
 }
 
 GLuint FilmGl::sweptBuffer(const SweepOrder& order) {
@@ -317,7 +340,7 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
                     (static_cast<int64_t>(wiped[1] - wiped_before_[1]) << 16);  // both modulo 2^32
   wiped_before_ = wiped;
   const bool empty = std::all_of(report.tiles.begin(), report.tiles.end(), [](const shared::FilmTile& tile) {
-    return tile.film_low_pl == 0 && tile.film_high == 0;
+    return tile.film_low_pl == 0 && tile.film_high == 0 && tile.beads_pl == 0;
   });
   if (empty && report.ridge_pl == 0 && report.step >= watered_step_) dry_ = true;
   return report;
@@ -334,12 +357,16 @@ std::vector<FilmReport> FilmGl::collect(bool wait) {
   return reports;
 }
 
-std::vector<int32_t> FilmGl::readFilm() const {
-  std::vector<int32_t> all(tiles_ * kTileTexels), out(static_cast<size_t>(map_.texelCount()));
-  film_[turn_].read(0, all.data(), all.size() * sizeof(int32_t));
+template <typename T>
+std::vector<T> FilmGl::readTexels(const gl::Buffer& texels) const {
+  std::vector<T> all(tiles_ * kTileTexels), out(static_cast<size_t>(map_.texelCount()));
+  texels.read(0, all.data(), all.size() * sizeof(T));
   for (int i = 0; i < map_.texelCount(); ++i) out[static_cast<size_t>(i)] = all[place(i)];
   return out;
 }
+
+std::vector<int32_t> FilmGl::readFilm() const { return readTexels<int32_t>(film_[turn_]); }
+std::vector<uint32_t> FilmGl::readBeads() const { return readTexels<uint32_t>(beads_); }
 
 std::vector<int32_t> FilmGl::readRidges() const {
   std::vector<int32_t> out(kRidgePieces);
@@ -350,8 +377,10 @@ std::vector<int32_t> FilmGl::readRidges() const {
 void FilmGl::abandon() {
   for (gl::Buffer& film : film_) film.forget();
   for (gl::BufferTexture& strips : film_strips_) strips.forget();
-  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_}) nodes->forget();
+  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_, &beads_strips_}) nodes->forget();
   picture_.forget();
+  beads_picture_.forget();
+  beads_.forget();
   ridges_.forget();
   states_.forget();
   awake_.forget();

@@ -1,4 +1,5 @@
-// A pane's film on the GPU: whole picolitres, the ridges of its blades, and batches of steps under way.
+// A pane's film and beads on the GPU: whole picolitres, the ridges of its blades, and batches of steps under
+// way.
 #pragma once
 
 #include <array>
@@ -33,8 +34,10 @@ class FilmGl {
 
   // The film as it is, R32I, row by row; made when asked for.
   const gl::Texture2D& picture();
+  const gl::Texture2D& beadsPicture();  // R32UI, packed as in shared/glass_beads.glsl
   const gl::Buffer& ridges() const { return ridges_; }
   std::vector<int32_t> readFilm() const;
+  std::vector<uint32_t> readBeads() const;
   std::vector<int32_t> readRidges() const;
   void abandon();
 
@@ -63,6 +66,9 @@ class FilmGl {
   void clear();
   std::vector<shared::FilmChange> changesOf(const FilmOrder& order);
   size_t place(int texel) const;
+  void show(const gl::Buffer& texels, GLenum type, gl::Texture2D& picture);
+  template <typename T>
+  std::vector<T> readTexels(const gl::Buffer& texels) const;
   std::unique_ptr<Batch> freeBatch(size_t upload_bytes);
   FilmReport read(const Batch& batch, size_t index);
   GLuint sweptBuffer(const SweepOrder& order);
@@ -76,10 +82,12 @@ class FilmGl {
   std::array<gl::Buffer, 2> film_;
   std::array<gl::BufferTexture, 2> film_strips_;
   size_t turn_ = 0;
+  gl::Buffer beads_;  // lie where they are: one copy will do
+  gl::BufferTexture beads_strips_;
   gl::Buffer ridges_, states_, awake_, metric_;
   gl::BufferTexture metric_nodes_, drive_nodes_;
-  gl::Texture2D picture_;
-  bool picture_is_old_ = true;
+  gl::Texture2D picture_, beads_picture_;
+  bool picture_is_old_ = true, beads_picture_is_old_ = true;
   std::vector<int> change_of_;  // texel: its place among a step's changes, -1 between steps
   std::vector<Swept> swept_;
   std::deque<std::unique_ptr<Batch>> pending_;

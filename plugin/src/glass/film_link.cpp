@@ -25,8 +25,10 @@ FilmLink::FilmLink(const PaneMap& map, Ledger& ledger)
     : map_(map),
       ledger_(ledger),
       sums_(static_cast<size_t>(map.texelCount()), 0),
+      bead_of_(static_cast<size_t>(map.texelCount()), -1),
       taken_in_(static_cast<size_t>(map.texelCount()), -1),
-      tile_thickness_m_(map.tileArea_m2().size(), 0.0f) {}
+      tile_thickness_m_(map.tileArea_m2().size(), 0.0f),
+      tile_watered_(map.tileArea_m2().size(), false) {}
 
 void FilmLink::attach() {
   if (std::exchange(attached_, true)) return;
@@ -37,7 +39,7 @@ void FilmLink::attach() {
 void FilmLink::detach() {
   if (!attached_) return;
   attached_ = false;
-  ledger_.drained_pl += film_pl_ + ridge_pl_ + travelling_pl();
+  ledger_.drained_pl += film_pl_ + beads_pl_ + ridge_pl_ + travelling_pl();
   clear();
   first_step_ = next_step_;
 }
@@ -46,6 +48,7 @@ void FilmLink::clear() {
   for (const int texel : touched_) sums_[static_cast<size_t>(texel)] = 0;
   touched_.clear();
   takers_.clear();
+  for (const shared::BeadAdd& add : order_.bead_adds) bead_of_[static_cast<size_t>(add.texel)] = -1;
   order_ = {};
   gathered_pl_ = 0;
   leaving_.fill(false);
@@ -54,7 +57,8 @@ void FilmLink::clear() {
   reports_.clear();
   report_takers_.clear();
   std::fill(tile_thickness_m_.begin(), tile_thickness_m_.end(), 0.0f);
-  film_pl_ = ridge_pl_ = 0;
+  std::fill(tile_watered_.begin(), tile_watered_.end(), false);
+  film_pl_ = beads_pl_ = ridge_pl_ = 0;
   first_step_ = next_step_;
   last_reported_ = next_step_ - 1;
   if (!attached_) return;
@@ -76,6 +80,26 @@ void FilmLink::add(int texel, int64_t volume_pl) {
   sum += static_cast<int32_t>(fits);
   gathered_pl_ += fits;
   ledger_.drained_pl += volume_pl - fits;  // a flood that no film holds
+}
+
+void FilmLink::addBeads(int texel, int64_t volume_pl, int number) {
+  if (volume_pl <= 0) return;
+  if (!attached_) {
+    ledger_.drained_pl += volume_pl;
+    return;
+  }
+  volume_pl = passed(LeakyKernel::exchange, volume_pl);
+  int32_t& known = bead_of_[static_cast<size_t>(texel)];
+  if (known < 0) {
+    known = static_cast<int32_t>(order_.bead_adds.size());
+    order_.bead_adds.push_back({texel, 0, 0});
+  }
+  shared::BeadAdd& sum = order_.bead_adds[static_cast<size_t>(known)];
+  const int64_t fits = std::min(volume_pl, kMostToTexel_pl - sum.volume_pl);
+  sum.volume_pl += static_cast<int32_t>(fits);
+  sum.number = std::min(sum.number + number, shared::kMostBeads);
+  gathered_pl_ += fits;
+  ledger_.drained_pl += volume_pl - fits;
 }
 
 Footprint FilmLink::within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m) const {
@@ -155,6 +179,7 @@ void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared
     sums_[static_cast<size_t>(texel)] = 0;
   }
   touched_.clear();
+  for (const shared::BeadAdd& add : order_.bead_adds) bead_of_[static_cast<size_t>(add.texel)] = -1;
   order_.step = step;
   order_.drive = std::move(drive);
   order_.info = info;
@@ -171,8 +196,9 @@ void FilmLink::deliver(FilmReport&& report) {
   report_takers_.push_back(std::move(ordered_.front().takers));
   ordered_.pop_front();
   last_reported_ = report.step;
-  film_pl_ = 0;
+  film_pl_ = beads_pl_ = 0;
   for (const shared::FilmTile& tile : report.tiles) {
+    beads_pl_ += tile.beads_pl;
     film_pl_ += static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
     ledger_.drained_pl += tile.drained_pl;
     ledger_.blown_pl += tile.blown_pl;
@@ -194,16 +220,23 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
     const int64_t volume_pl =
         static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
     const float area_m2 = map_.tileArea_m2()[i];
+    tile_watered_[i] = volume_pl > 0 || tile.beads_pl > 0;
     tile_thickness_m_[i] = area_m2 > 0.0f ? static_cast<float>(cubicMetres(volume_pl)) / area_m2 : 0.0f;
   }
   return true;
 }
 
-double FilmLink::thickness_m(int texel) const {
+size_t FilmLink::tileOf(int texel) const {
   const int x = texel % map_.grid().size.x / shared::kTileSize,
             y = texel / map_.grid().size.x / shared::kTileSize;
-  return static_cast<double>(tile_thickness_m_[static_cast<size_t>(y * map_.tileCount().x + x)]);
+  return static_cast<size_t>(y * map_.tileCount().x + x);
 }
+
+double FilmLink::thickness_m(int texel) const {
+  return static_cast<double>(tile_thickness_m_[tileOf(texel)]);
+}
+
+bool FilmLink::watered(int texel) const { return tile_watered_[tileOf(texel)]; }
 
 int64_t FilmLink::travelling_pl() const {
   int64_t sum = gathered_pl_;

@@ -44,6 +44,8 @@ class FilmLink {
   // Gives water to a texel, or evenly to those within a radius (real metres, `metres` real for a grid metre).
   // Places off the pane get none of it.
   void add(int texel, int64_t volume_pl);
+  // Beads to a texel: they lie there, or join its film where that flows.
+  void addBeads(int texel, int64_t volume_pl, int number);
   Footprint within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m) const;
   void spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl);
   // Asks for a share of what is on a texel; the report brings it. The first to ask in a step gets it.
@@ -65,9 +67,11 @@ class FilmLink {
   // The report to be used now, with its takers; false: none.
   bool use(int64_t step, FilmReport& report, std::vector<Taker>& takers);
 
-  double thickness_m(int texel) const;  // mean over the tile, as last used
+  double thickness_m(int texel) const;  // of the film, mean over the tile, as last used
+  bool watered(int texel) const;        // film or beads are in the tile, as last used
 
   int64_t film_pl() const { return film_pl_; }
+  int64_t beads_pl() const { return beads_pl_; }
   int64_t ridge_pl() const { return ridge_pl_; }
   int64_t travelling_pl() const;
   void clear();  // dry, before the next step
@@ -84,6 +88,7 @@ class FilmLink {
   FilmOrder order_;
   std::vector<int32_t> sums_;      // given to a texel in this step
   std::vector<int> touched_;       // texels with a sum
+  std::vector<int32_t> bead_of_;   // texel: its place in the order's bead_adds, -1
   std::vector<int64_t> taken_in_;  // the step in which somebody asked for a texel
   std::vector<Taker> takers_;
   std::array<bool, kRidgePieces> leaving_{};  // in this step; the first to say where a ridge goes is right
@@ -93,7 +98,9 @@ class FilmLink {
   std::deque<FilmReport> reports_;  // not yet used
   std::deque<std::vector<Taker>> report_takers_;
   std::vector<float> tile_thickness_m_;
-  int64_t film_pl_ = 0, ridge_pl_ = 0;
+  std::vector<bool> tile_watered_;
+  size_t tileOf(int texel) const;
+  int64_t film_pl_ = 0, beads_pl_ = 0, ridge_pl_ = 0;
 };
 
 }  // namespace rg::glass

@@ -27,12 +27,14 @@ struct SweepOrder {
   bool backwards = false;  // towards lesser angles
 };
 
-// Order of work in a step: takes, adds, ridge adds, sweeps one after the other, leaves, flow.
+// Order of work in a step: takes, adds of film and of beads, ridge adds, sweeps one after the other, leaves,
+// flow.
 struct FilmOrder {
   int64_t step = -1;
   bool clear = false;  // no step: the film is to be dry
   std::vector<shared::FilmTake> takes;
   std::vector<shared::FilmAdd> adds;
+  std::vector<shared::BeadAdd> bead_adds;  // no texel twice, as in the others
   std::vector<shared::RidgeAdd> ridge_adds;
   std::vector<SweepOrder> sweeps;
   std::vector<shared::SweptRange> sweep_ranges;
@@ -40,7 +42,7 @@ struct FilmOrder {
   std::vector<int> leave_texels;
   std::vector<shared::vec4> drive;  // per node, see ForceField::filmDrive
   shared::FilmStepInfo info{};
-  int64_t ordered_pl = 0;  // of adds and ridge_adds
+  int64_t ordered_pl = 0;  // of all adds
 };
 
 struct FilmReport {

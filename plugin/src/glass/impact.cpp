@@ -71,6 +71,7 @@ void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32
       const glm::dvec2 corner = map.middleOf(impact.texel) - 0.5 * map.grid().texel_m;
       impact.place_m = corner + map.grid().texel_m * glm::dvec2(random.unit(), random.unit());
       impact.diameter_m = size.diameter_m;
+      impact.speed_mps = std::max(0.0, -glm::dot(v, glm::dvec3(map.texel(impact.texel).normal)));
       impact.volume_pl = picolitres(dropVolume_m3(size.diameter_m));
       impact.hash = random.next();
       out.push_back(impact);

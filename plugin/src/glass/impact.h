@@ -12,6 +12,7 @@ struct Impact {
   glm::dvec2 place_m{0.0};  // grid
   int texel = 0;
   double diameter_m = 0.0;
+  double speed_mps = 0.0;  // against the glass, along its normal
   int64_t volume_pl = 0;
   uint32_t hash = 0;  // for what is random about this drop
 };

@@ -13,6 +13,7 @@
 #include "glass/look_capture_gl.h"
 #include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
+#include "glass/water.h"
 
 namespace rg::glass {
 namespace {
@@ -25,7 +26,9 @@ constexpr float kFineRadius_px = 3.0f;
 constexpr float kSteepestRidge_rad = 1.4f;
 
 const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
-const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"};
+const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"},
+    kInsideEnvironment{"INSIDE", "ENVIRONMENT"};
+const std::array<std::string, 3> kInsideCoarseEnvironment{"INSIDE", "COARSE", "ENVIRONMENT"};
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -43,7 +46,7 @@ struct FrameBlock {
   float film_unit_m3;
   int32_t blade_count;
   float ridge_tan_contact;
-  float unused[2];
+  float bead_mm3_per_unit, bead_sine;
   struct Blade {
     glm::vec4 middle_length, along_first, ahead;
   } blades[shared::kMaxGlassWipers];
@@ -58,7 +61,7 @@ float texelsPerRadian(const GladGLContext& gl, uint32_t cube) {
   return static_cast<float>(size_px) / glm::half_pi<float>();
 }
 
-bool isWet(const LookPane& pane) { return pane.film != 0 || pane.drop_count > 0; }
+bool isWet(const LookPane& pane) { return pane.film != 0 || pane.beads != 0 || pane.drop_count > 0; }
 
 }  // namespace
 
@@ -66,8 +69,12 @@ struct GlassLook::Parts {
   explicit Parts(const GladGLContext& context)
       : gl(context),
         film_program(gl, {"glass/look_screen.vert", "glass/look_film.frag"}),
-        inside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
-                        gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideCoarse)},
+        beads_program(gl, {"glass/look_screen.vert", "glass/look_beads.frag"}),
+        inside_programs{
+            {{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
+              gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideEnvironment)},
+             {gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideCoarse),
+              gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideCoarseEnvironment)}}},
         outside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
                          gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kEnvironment)},
         small_program(gl, {"glass/look_small.vert", "glass/look_small.frag"}),
@@ -85,6 +92,7 @@ struct GlassLook::Parts {
         no_environment(gl, GL_RGBA16F, 1),
         no_film(gl, GL_RGBA16F, 1, 1),
         films(gl, false),
+        bead_maps(gl, false),
         picture(gl),
         capture(gl) {
     no_film.zero();
@@ -98,6 +106,9 @@ struct GlassLook::Parts {
   void bindLook(const LookLight& light, const LookTarget& target);
   void setState(const LookView& view, const LookTarget& target);
   void composeFilm(const LookPane& pane);
+  void composeBeads(const LookPane& pane);
+  uint32_t compose(Canvases& canvases, const LookPane& pane, const gl::Program& program,
+                   const std::array<uint32_t, 3>& maps);
   void drawFilm(const LookPane& pane);
   void placeDrops(const LookPane& pane);
   void drawDrops(const LookPane& pane);
@@ -107,8 +118,9 @@ struct GlassLook::Parts {
   }
 
   const GladGLContext& gl;
-  gl::Program film_program;
-  std::array<gl::Program, 2> inside_programs;   // for a film of few and of many pixels to a texel
+  gl::Program film_program, beads_program;
+  // For a film of few and of many pixels to a texel, each without and with an environment.
+  std::array<std::array<gl::Program, 2>, 2> inside_programs;
   std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
   gl::Program small_program;
   std::array<gl::Program, 2> place_programs, drop_programs;
@@ -118,8 +130,9 @@ struct GlassLook::Parts {
   gl::TextureCube no_environment;  // black
   gl::Texture2D no_film;           // a dry texel
   Canvases films;                  // of look_film.frag
+  Canvases bead_maps;              // of look_beads.frag
   size_t with_environment = 0, coarse = 0;
-  uint32_t film_seen = 0;  // for the pane being drawn
+  uint32_t film_seen = 0, beads_seen = 0;  // for the pane being drawn
   LookPicture picture;
   LookCapture capture;
 };
@@ -157,6 +170,9 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.internal_reflections = static_cast<uint32_t>(std::clamp(settings.internal_reflections, 0, 6));
   block.dry_reflection = settings.dry_reflection;
   block.film_unit_m3 = pane.film_unit_m3;
+  block.bead_mm3_per_unit =
+      1e9f * pane.film_unit_m3 / static_cast<float>(capShape(static_cast<double>(pane.bead_contact_rad)));
+  block.bead_sine = std::sin(std::min(pane.bead_contact_rad, glm::half_pi<float>()));
   block.ridge_tan_contact = std::tan(std::min(pane.ridge_contact_rad, kSteepestRidge_rad));
   for (const LookBlade& blade : pane.blades) {
     if (pane.film == 0 || block.blade_count == shared::kMaxGlassWipers) break;
@@ -201,8 +217,17 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
 }
 
 void GlassLook::Parts::composeFilm(const LookPane& pane) {
-  Canvas& canvas = films.ofSize(pane.film_size.x, pane.film_size.y);
-  film_seen = canvas.texture.name();
+  film_seen = compose(films, pane, film_program, {pane.film, pane.frame, pane.metric});
+}
+
+void GlassLook::Parts::composeBeads(const LookPane& pane) {
+  beads_seen = compose(bead_maps, pane, beads_program, {pane.beads, pane.position, pane.metric});
+}
+
+// What a program makes of a pane's maps, texel by texel.
+uint32_t GlassLook::Parts::compose(Canvases& canvases, const LookPane& pane, const gl::Program& program,
+                                   const std::array<uint32_t, 3>& maps) {
+  Canvas& canvas = canvases.ofSize(pane.film_size.x, pane.film_size.y);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer.name());
   gl.ViewportIndexedf(0, 0.0f, 0.0f, static_cast<float>(pane.film_size.x),
                       static_cast<float>(pane.film_size.y));
@@ -210,19 +235,21 @@ void GlassLook::Parts::composeFilm(const LookPane& pane) {
   gl.Disablei(GL_BLEND, 0);
   gl.Disablei(GL_SCISSOR_TEST, 0);
   gl.Disable(GL_CULL_FACE);
-  gl.BindTextureUnit(kFirst, pane.film);
-  gl.BindTextureUnit(kSecond, pane.frame);
-  gl.BindTextureUnit(kThird, pane.metric);
-  for (const GLuint unit : {kFirst, kSecond, kThird}) gl.BindSampler(unit, exact.name());
+  for (GLuint k = 0; k < 3; ++k) {
+    gl.BindTextureUnit(kFirst + k, maps[k]);
+    gl.BindSampler(kFirst + k, exact.name());
+  }
   gl.BindVertexArray(no_layout.name());
-  film_program.use();
+  program.use();
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  return canvas.texture.name();
 }
 
 void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.Disablei(GL_BLEND, 0);
   gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen : no_film.name());
-  gl.BindSampler(kFirst, smooth.name());
+  gl.BindTextureUnit(kSecond, pane.beads != 0 ? beads_seen : no_film.name());
+  for (const GLuint unit : {kFirst, kSecond}) gl.BindSampler(unit, smooth.name());
   gl.BindSampler(kPicture, stepped.name());  // one mip level: a quarter of the pass cheaper
   if (!pane.blades.empty()) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, pane.ridge_buffer);
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
@@ -232,7 +259,7 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   // outside.
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
-  inside_programs[coarse].use();
+  inside_programs[coarse][with_environment].use();
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   gl.CullFace(GL_BACK);
   outside_programs[with_environment].use();
@@ -267,9 +294,9 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &small_program}) program->forget();
+  for (gl::Program* program : {&film_program, &beads_program, &small_program}) program->forget();
   for (size_t k : {0u, 1u}) {
-    inside_programs[k].forget();
+    for (gl::Program& program : inside_programs[k]) program.forget();
     outside_programs[k].forget();
     place_programs[k].forget();
     drop_programs[k].forget();
@@ -282,6 +309,7 @@ void GlassLook::Parts::forget() {
   no_environment.forget();
   no_film.forget();
   films.forget();
+  bead_maps.forget();
   picture.forget();
   capture.forget();
 }
@@ -305,6 +333,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     drawn.push_back(seen);
     p.fillFrame(pane, view, target, light, settings);
     if (pane.film != 0) p.composeFilm(pane);
+    if (pane.beads != 0) p.composeBeads(pane);
     p.setState(view, target);
     p.bindLook(light, target);
     p.drawFilm(pane);

@@ -78,6 +78,9 @@ struct LookPane {
                        // likewise carried on
   uint32_t film = 0;   // R32I volume in each texel in units of film_unit_m3, < 0 off the pane; 0: no film
   float film_unit_m3 = shared::kPicolitre_m3;
+  // R32UI beads of each texel, packed as in shared/glass_beads.glsl, of the film's unit; 0: none
+  uint32_t beads = 0;
+  float bead_contact_rad = 0.44f;
   std::vector<LookBlade> blades;  // at most shared::kMaxGlassWipers
   uint32_t ridge_buffer = 0;      // int32_t volume of each piece, in units of film_unit_m3
   float ridge_contact_rad = 0.7f;

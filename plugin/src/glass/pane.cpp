@@ -11,6 +11,7 @@
 #include "glass/impact.h"
 #include "glass/random.h"
 #include "glass/washer.h"
+#include "shared/glass_beads.glsl"
 #include "tick.h"
 
 namespace rg::glass {
@@ -38,6 +39,15 @@ double filmEvaporation_mps(double humidity, double saturated_kg_m3, double air_m
   const double still =
       kVapourDiffusivity_m2_s * std::max(0.0, 1.0 - humidity) * saturated_kg_m3 / kVapourLayer_m / kRho_kg_m3;
   return still * ventilation(air_mps, 2.0 * kVapourLayer_m);
+}
+
+// Where the look shows a texel's lone bead: there it goes on as a drop.
+glm::dvec2 beadPlace(const PaneMap& map, int texel, double radius_m) {
+  const shared::SeatedBead bead = shared::seatedBead(static_cast<uint32_t>(texel), glm::ivec2(0), 1,
+                                                     static_cast<float>(radius_m / map.grid().texel_m));
+  const glm::vec2 corner(texel % map.grid().size.x, texel / map.grid().size.x);
+  const glm::dvec2 place = glm::dvec2(shared::gridPlace(corner + bead.middle)) * map.grid().texel_m;
+  return map.texelAt(place) >= 0 ? place : map.middleOf(texel);
 }
 
 }  // namespace
@@ -135,7 +145,7 @@ void PaneSim::State::wash(const Washing& washing, uint32_t number) {
   }
 }
 
-// Film that broke into drops, and what drops ran over.
+// Film that is too thick and beads that are too large become drops, and drops get what they ran over.
 void PaneSim::State::useReport() {
   FilmReport report;
   std::vector<Taker> takers;
@@ -146,15 +156,9 @@ void PaneSim::State::useReport() {
     if (tile.event_texel < 0 || tile.event_pl <= 0) continue;
     const uint32_t h =
         shared::pcg(static_cast<uint32_t>(tile.event_texel) ^ shared::pcg(static_cast<uint32_t>(now.index)));
-    const double angle = surface.receding_rad + (surface.advancing_rad - surface.receding_rad) *
-                                                    (0.4 + 0.5 * static_cast<double>(shared::unitFloat(h)));
-    const glm::dvec2 jitter =
-        glm::dvec2(shared::unitFloat(shared::pcg(h)), shared::unitFloat(shared::pcg(h + 1u))) - 0.5;
-    const glm::dvec2 place = map.middleOf(tile.event_texel) + jitter * map.grid().texel_m;
-    if (drops.add(shared_world, place, tile.event_pl, std::cbrt(cubicMetres(tile.event_pl) / capShape(angle)),
-                  h) < 0) {
+    const double radius_m = std::cbrt(cubicMetres(tile.event_pl) / capShape(meanAngle(surface)));
+    if (drops.add(shared_world, beadPlace(map, tile.event_texel, radius_m), tile.event_pl, radius_m, h) < 0)
       film.add(tile.event_texel, tile.event_pl);
-    }
   }
 }
 
@@ -172,11 +176,20 @@ void PaneSim::State::closeFilmStep() {
   const double room = drops.capacity() == 0
                           ? 0.0
                           : 1.0 - static_cast<double>(drops.count()) / static_cast<double>(drops.capacity());
-  info.rupture_chance = static_cast<float>(
-      std::min(1.0, surface.rupture_hz * std::max(0.0, 4.0 * room - 1.0) * kTicksPerFilmStep * kTickSeconds));
+  info.rupture_chance = drops.capacity() == 0
+                            ? 0.0f
+                            : static_cast<float>(std::min(1.0, surface.rupture_hz * shared::kDryingSteps *
+                                                                   kTicksPerFilmStep * kTickSeconds));
   info.drops_allowed = room > 0.1 ? 1 : 0;
-  info.evaporation_mps = static_cast<float>(filmEvaporation_mps(
-      now.humidity, saturatedVapour_kg_m3(now.temperature_c), 0.5 * glm::length(now.air_mps)));
+  const double saturated_kg_m3 = saturatedVapour_kg_m3(now.temperature_c),
+               air_mps = 0.5 * glm::length(now.air_mps);
+  info.evaporation_mps = static_cast<float>(filmEvaporation_mps(now.humidity, saturated_kg_m3, air_mps));
+  const double angle = meanAngle(surface);
+  info.bead_mm3_per_pl = static_cast<float>(1e-6 / capShape(angle));
+  info.bead_drying_pl_mm = static_cast<float>(
+      evaporation_kg_s(1e-3, angle, std::min(now.humidity, 1.0), saturated_kg_m3) / kRho_kg_m3 *
+      kPicolitresPerM3 * shared::kDryingSteps * kTicksPerFilmStep * kTickSeconds);
+  info.bead_airing = static_cast<float>(ventilation(air_mps, 2e-3) - 1.0);
   film.close(ticks / kTicksPerFilmStep, forces.filmDrive(), info);
 }
 
@@ -301,6 +314,7 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
   made->tick = state_->now.index;
   made->blades = state_->blades.moving();
   made->advancing_rad = state_->surface.advancing_rad;
+  made->bead_contact_rad = meanAngle(state_->surface);
   made->drops.reserve(state_->drops.count());
   for (const Drop& drop : state_->drops.all()) {
     if (drop.volume_pl == 0) continue;
@@ -334,10 +348,11 @@ PaneStats PaneSim::stats() const {
   out.blown_pl = ledger.blown_pl;
   out.evaporated_pl = ledger.evaporated_pl;
   out.film_pl = state_->film.film_pl();
+  out.beads_pl = state_->film.beads_pl();
   out.ridge_pl = state_->film.ridge_pl();
   out.travelling_pl = state_->film.travelling_pl();
   out.drops_pl = state_->drops.volume_pl();
-  out.on_glass_pl = out.film_pl + out.drops_pl + out.ridge_pl + out.travelling_pl;
+  out.on_glass_pl = out.film_pl + out.beads_pl + out.drops_pl + out.ridge_pl + out.travelling_pl;
   out.dropped_ticks = state_->dropped_ticks;
   return out;
 }
@@ -346,8 +361,8 @@ uint64_t PaneSim::hash() const {
   const std::lock_guard lock(state_->mutex);
   const Ledger& ledger = state_->ledger;
   uint64_t h = state_->drops.hash(0xcbf29ce484222325ull);
-  for (const int64_t value :
-       {ledger.caught_pl, ledger.gone_pl(), state_->film.travelling_pl(), state_->film.film_pl()}) {
+  for (const int64_t value : {ledger.caught_pl, ledger.gone_pl(), state_->film.travelling_pl(),
+                              state_->film.film_pl(), state_->film.beads_pl()}) {
     h = (h ^ static_cast<uint64_t>(value)) * 0x100000001b3ull + (h >> 29);
   }
   return h;

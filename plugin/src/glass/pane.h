@@ -116,9 +116,9 @@ struct PaneStats {
   uint32_t drops = 0;
   double area_m2 = 0.0;
   int64_t caught_pl = 0;
-  int64_t on_glass_pl = 0;  // film + drops + ridge + what travels between CPU and GPU, summed afresh
+  int64_t on_glass_pl = 0;  // film + beads + drops + ridge + what travels between CPU and GPU, summed afresh
   int64_t drained_pl = 0, wiped_pl = 0, blown_pl = 0, evaporated_pl = 0;
-  int64_t film_pl = 0, drops_pl = 0, ridge_pl = 0, travelling_pl = 0;
+  int64_t film_pl = 0, beads_pl = 0, drops_pl = 0, ridge_pl = 0, travelling_pl = 0;
   uint64_t dropped_ticks =
       0;  // ticks not run because the GPU's part was not called for more than four seconds
 };
@@ -137,6 +137,7 @@ struct PaneSnapshot {
   std::vector<shared::GlassDropRecord> drops;
   std::vector<MovingBlade> blades;
   double advancing_rad = 0.0;  // contact angle of what is pushed
+  double bead_contact_rad = 0.0;
 };
 
 // [thread: all functions may be called from any thread; the pane locks itself]

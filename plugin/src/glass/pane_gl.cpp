@@ -150,6 +150,7 @@ PaneDrawn PaneGl::drawn() const {
   out.radius_m = map.radius_m();
   out.film = parts_->film.picture().name();
   out.film_size = map.grid().size;
+  out.beads = parts_->film.beadsPicture().name();
   out.position = parts_->maps.position.name();
   out.metric = parts_->maps.metric.name();
   out.frame = parts_->maps.frame.name();
@@ -162,6 +163,7 @@ PaneDrawn PaneGl::drawn() const {
     out.ridge_buffer = parts_->film.ridges().name();
     out.blades = parts_->drawn->blades;
     out.advancing_rad = parts_->drawn->advancing_rad;
+    out.bead_contact_rad = parts_->drawn->bead_contact_rad;
   }
   return out;
 }
@@ -171,12 +173,20 @@ std::vector<int32_t> PaneGl::readFilm() {
   return parts_->film.readFilm();
 }
 
+std::vector<uint32_t> PaneGl::readBeads() {
+  finish();
+  return parts_->film.readBeads();
+}
+
 uint64_t PaneGl::hash() {
   finish();
   uint64_t h = 0xcbf29ce484222325ull;
-  for (const std::vector<int32_t>& list : {parts_->film.readFilm(), parts_->film.readRidges()}) {
-    for (const int32_t value : list) h = (h ^ static_cast<uint32_t>(value)) * 0x100000001b3ull + (h >> 29);
-  }
+  const auto mix = [&h](const auto& list) {
+    for (const auto value : list) h = (h ^ static_cast<uint32_t>(value)) * 0x100000001b3ull + (h >> 29);
+  };
+  mix(parts_->film.readFilm());
+  mix(parts_->film.readBeads());
+  mix(parts_->film.readRidges());
   return h;
 }
 

@@ -17,7 +17,7 @@ namespace rg::glass {
 
 // GL programs that all panes of a context share. A leaky kernel loses 1 % of what passes through it: the
 // ledger's tests must see that.
-enum class FilmKernel { none, take, add, ridge, sweep, leave, step };
+enum class FilmKernel { none, take, add, ridge, sweep, leave, step, bead_add, bead };
 class FilmPrograms;
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky = FilmKernel::none);
 // The context is gone: forget names instead of deleting them.
@@ -37,6 +37,8 @@ struct PaneDrawn {
   uint32_t film = 0;         // GL_TEXTURE_2D R32I, picolitres in each texel; -1 off the pane
   glm::ivec2 film_size{0};
   float film_unit_m3 = shared::kPicolitre_m3;
+  uint32_t beads = 0;  // GL_TEXTURE_2D R32UI, each texel's beads as in shared/glass_beads.glsl
+  double bead_contact_rad = 0.0;
   uint32_t metric = 0;       // RGBA32F: metres for a texel along u, along v, cosine between both, area in m^2
   uint32_t frame = 0;        // RGBA16F array of 2 layers: unit tangents along u and v, vehicle frame
   float texel_m = 0.0f;      // grid metres: uv = position_m / (texel_m * film_size)
@@ -49,7 +51,7 @@ struct PaneDrawn {
 };
 
 // [thread: GL, context current] GL state is not restored here (the caller's guard does): touches program,
-// buffer bindings (SSBO 0..7, UBO 0, pixel unpack), image units 0..2, pixel store, textures none.
+// buffer bindings (SSBO 0..7, UBO 0, pixel unpack), image units 0..3, pixel store, textures none.
 class PaneGl {
  public:
   PaneGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, std::shared_ptr<PaneSim> sim);
@@ -66,7 +68,9 @@ class PaneGl {
   PaneDrawn drawn() const;
   // Film as it is after finish(), row by row, -1 off the pane.
   std::vector<int32_t> readFilm();
-  // Of film and ridges, for the state's hash; finishes.
+  // Beads likewise, packed as in shared/glass_beads.glsl.
+  std::vector<uint32_t> readBeads();
+  // Of film, beads and ridges, for the state's hash; finishes.
   uint64_t hash();
 
   // The context is gone: forget names instead of deleting them.

@@ -16,7 +16,7 @@ Surface surfaceOf(Glass glass) {
     case Glass::uncoated:
       break;
   }
-  return {rad(40), rad(10), 100.0, 3e-6, 40e-6, 20e-6, 0.4, 60e-6, 15e-6};
+  return {rad(40), rad(10), 100.0, 3e-6, 40e-6, 40e-6, 2.0, 60e-6, 15e-6};
 }
 
 }  // namespace rg::glass

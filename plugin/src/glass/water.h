@@ -27,7 +27,7 @@ struct Surface {
   double friction;      // b of the sliding law F = F0 + b w eta U; 20..200 (Li et al. 2023)
   double pin_m;         // a thinner film does not move
   double front_m;       // a thinner film does not run onto dry glass
-  double rupture_m;     // a thinner film gathers into drops ...
+  double rupture_m;     // a thinner film breaks up into beads ...
   double rupture_hz;    // ... so often for each texel
   double wetting_m;     // a tile with more film than this swallows drops that fall on it
   double trail_film_m;  // film a sliding drop leaves at 0.1 m/s
@@ -48,6 +48,11 @@ inline double capHeight(double volume_m3, double base_radius_m) {
   const double r3 = base_radius_m * base_radius_m * base_radius_m;
   const double root = std::sqrt(q * q + r3 * r3);
   return std::cbrt(q + root) - std::cbrt(root - q);
+}
+
+// Beads, and drops of no known history, are caps of the mean of both angles (physics.md 3).
+inline double meanAngle(const Surface& surface) {
+  return 0.5 * (surface.advancing_rad + surface.receding_rad);
 }
 
 // What of a cap stands above a height: a cap of the same sphere.

@@ -1,0 +1,37 @@
+// The beads of a pane as a pixel sees them: at most one by itself, and how much those too small for that cover.
+#ifndef RG_OPTICS_BEAD_GLSL
+#define RG_OPTICS_BEAD_GLSL
+#include "optics/look_frame.glsl"
+#include "shared/glass_beads.glsl"
+
+layout(binding = 3) uniform sampler2D beads;  // of look_beads.frag; empty where the pane has none
+
+struct SeenBead {
+  float cover;      // share of the pixel
+  float hazy;       // share covered by unresolved ones
+  vec2 aside;       // from the bead's middle in its radii, axes of the grid
+  float radius_px;
+};
+
+// `dx`, `dy`: what of the grid the pixel spans, texels.
+SeenBead seenBead(vec2 place, vec2 dx, vec2 dy) {
+  vec2 bent = beadPlace(place);
+  ivec2 size = textureSize(beads, 0), texel = clamp(ivec2(floor(bent)), ivec2(0), size - 1);
+  vec4 here = texelFetch(beads, texel, 0);
+  int number = int(here.x);
+  vec2 in_texel = fract(bent);
+  float mean = max(here.y, here.z);
+  SeatedBead bead = seatedBead(uint(texel.y * size.x + texel.x), ivec2(in_texel * float(beadCells(number))), number, mean);
+  vec2 radius = max(here.yz * bead.size, vec2(1e-4));
+  SeenBead seen;
+  seen.aside = (in_texel - bead.middle) / radius;
+  float from_middle = max(length(seen.aside), 1e-3);
+  vec2 outline = seen.aside / (from_middle * radius);
+  float per_px = max(length(vec2(dot(outline, dx), dot(outline, dy))), 1e-4);  // in radii
+  seen.cover = bead.size > 0.0 ? clamp((1.0 - from_middle) / per_px + 0.5, 0.0, 1.0) * min(2.0 * fract(here.x), 1.0) : 0.0;
+  seen.radius_px = 1.0 / per_px;
+  seen.hazy = textureLod(beads, place / vec2(size), 0.0).w;
+  return seen;
+}
+
+#endif

@@ -1,0 +1,387 @@
+// Beads: the small drops of a texel. They dry as drops do, run together where they are crowded, join a film,
+// are taken by drops and blades, and no picolitre of them is lost.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "film_reference.h"
+#include "gl_fixture.h"
+#include "glass/film_gl.h"
+#include "glass/water.h"
+#include "glass/wiper.h"
+#include "scene.h"
+
+namespace rg::test {
+namespace {
+
+using shared::Beads;
+
+Beads beads(int volume_pl, int number) {
+  Beads b{};
+  b.volume_pl = volume_pl;
+  b.number = number;
+  return b;
+}
+
+// Of a texel of 3 mm on uncoated glass.
+shared::FilmStepInfo uncoated() {
+  const glass::Surface s = glass::surfaceOf(glass::Glass::uncoated);
+  shared::FilmStepInfo info{};
+  info.pin_m = static_cast<float>(s.pin_m);
+  info.front_m = static_cast<float>(s.front_m);
+  info.rupture_m = static_cast<float>(s.rupture_m);
+  info.bead_mm3_per_pl = static_cast<float>(1e-6 / glass::capShape(glass::meanAngle(s)));
+  info.drops_allowed = 1;
+  return info;
+}
+const shared::vec4 kTexel(3e-3f, 3e-3f, 1.0f / 9e-6f, 0.0f);
+
+TEST(Beads, packAndUnpack) {
+  for (const Beads b :
+       {beads(0, 0), beads(1, 1), beads(shared::kMostBeads_pl, shared::kMostBeads), beads(65450, 3)}) {
+    const Beads again = shared::beadsOf(shared::packedBeads(b));
+    EXPECT_EQ(again.volume_pl, b.volume_pl);
+    EXPECT_EQ(again.number, b.number);
+  }
+}
+
+TEST(Beads, cubeRootIsOne) {
+  for (double x = 1e-9; x < 1e6; x *= 1.7)
+    EXPECT_NEAR(static_cast<double>(shared::cubeRoot(static_cast<float>(x))) / std::cbrt(x), 1.0, 1e-6);
+}
+
+// From n beads of base radius R cover a share s of an area: n pi R^2 = s area, V = n R^3 shape.
+TEST(Beads, coveringAnAreaIsGeometry) {
+  const float per_pl = uncoated().bead_mm3_per_pl;
+  for (const int number : {1, 3, 20, 64}) {
+    const Beads b = beads(300'000, number);
+    const double radius_m = 1e-3 * static_cast<double>(shared::beadRadius_mm(b, per_pl));
+    EXPECT_NEAR(number * std::pow(radius_m, 3.0) * 1e-6 / static_cast<double>(per_pl) / 3e-10, 1.0,
+                1e-3);  // whole picolitres each
+    const double share = number * kPi * radius_m * radius_m / 9e-6;
+    EXPECT_NEAR(
+        static_cast<double>(shared::beadsCovering(b.volume_pl, static_cast<float>(share), per_pl, kTexel.z)) /
+            number,
+        1.0, 1e-3);
+  }
+}
+
+// Whatever is done to a texel, its water is what it was, and the store keeps its promises.
+TEST(Beads, everyStepKeepsTheVolume) {
+  shared::FilmStepInfo info = uncoated();
+  info.rupture_chance = 0.5f;
+  info.evaporation_mps = 1e-7f;
+  info.bead_drying_pl_mm = 1e5f;
+  int offered = 0, joined = 0, broken = 0, merged = 0;
+  for (uint32_t i = 0; i < 100000; ++i) {
+    const glm::uvec4 h = shared::pcg4d({i, 1u, 2u, 3u});
+    info.step = h.w;
+    info.drops_allowed = static_cast<int>(h.w >> 31u);
+    const auto upTo = [](uint32_t hash, double most) {
+      const double u = static_cast<double>(shared::unitFloat(hash));
+      return static_cast<int>(most * u * u * u);
+    };
+    int film_pl = upTo(h.x, 4e6);
+    Beads lying = beads(upTo(h.y, 1e7), 1 + static_cast<int>(h.z % 64));
+    if (lying.volume_pl == 0) lying.number = 0;
+    const int64_t before = int64_t{film_pl} + lying.volume_pl;
+    const bool dries = h.z >> 31u != 0;
+    const shared::FilmTexel t =
+        shared::settled(film_pl, lying, i, shared::glassAt(i, info), kTexel, dries, info);
+    ASSERT_EQ(int64_t{t.film_pl} + t.beads.volume_pl + t.dried_pl, before);
+    ASSERT_GE(t.film_pl, 0);
+    ASSERT_EQ(t.beads.number > 0, t.beads.volume_pl > 0);
+    ASSERT_LE(t.beads.number, shared::kMostBeads);
+    const shared::FilmTexel left = shared::without(t, t.offered_pl);
+    ASSERT_EQ(int64_t{left.film_pl} + left.beads.volume_pl,
+              int64_t{t.film_pl} + t.beads.volume_pl - t.offered_pl);
+    ASSERT_EQ(left.beads.number > 0, left.beads.volume_pl > 0);
+    const int taken = shared::shareOf(t.beads.volume_pl, static_cast<int>(h.x % 65537));
+    const Beads rest = shared::withoutPart(t.beads, taken);
+    ASSERT_EQ(rest.volume_pl, t.beads.volume_pl - taken);
+    ASSERT_EQ(rest.number > 0, rest.volume_pl > 0);
+    ASSERT_LE(rest.number, t.beads.number);
+    offered += t.offered_pl > 0 ? 1 : 0;
+    joined += t.film_pl > film_pl ? 1 : 0;
+    broken += t.film_pl == 0 && film_pl > 0 && t.beads.number > 0 ? 1 : 0;
+    merged += t.beads.number > 0 && t.beads.number < lying.number ? 1 : 0;
+    int more_pl = film_pl;
+    const Beads both = shared::joinedBy(t.beads, 9'000'000, 3, more_pl);
+    ASSERT_EQ(int64_t{both.volume_pl} + more_pl, int64_t{t.beads.volume_pl} + 9'000'000 + film_pl);
+    ASSERT_LE(both.volume_pl, shared::kMostBeads_pl);
+  }
+  for (const int times : {offered, joined, broken, merged}) EXPECT_GT(times, 100);
+}
+
+// After a step they cover no more than they can without touching, or are one that is offered to the drops.
+TEST(Beads, crowdedOnesRunTogether) {
+  const shared::FilmStepInfo info = uncoated();
+  for (int volume_pl = 1000; volume_pl < 1'500'000; volume_pl += volume_pl / 3) {
+    const shared::FilmTexel t = shared::settled(0, beads(volume_pl, 64), 5, 7, kTexel, false, info);
+    const double radius_m = std::cbrt(t.beads.volume_pl * 1e-9 * static_cast<double>(info.bead_mm3_per_pl) /
+                                      std::max(t.beads.number, 1));
+    const double share = t.beads.number * kPi * radius_m * radius_m / 9e-6;
+    if (t.offered_pl == 0)
+      EXPECT_LE(share, static_cast<double>(shared::kCrowded) * 1.001) << volume_pl;
+    else
+      EXPECT_EQ(t.offered_pl, volume_pl);
+    // One more would not have room.
+    if (t.beads.number > 1 && t.beads.number < 64) {
+      EXPECT_GT(share * std::cbrt(static_cast<double>(t.beads.number + 1) / t.beads.number),
+                static_cast<double>(shared::kCrowded));
+    }
+  }
+}
+
+// The look's places: in each cell at most one, as many as there are, none over its cell's edge, their
+// volumes' sum that of the mean.
+TEST(Beads, seatsAreAsManyAsThereAreAndHoldTheirVolume) {
+  double most_off = 0.0;
+  for (uint32_t texel = 0; texel < 200; ++texel) {
+    for (int number = 2; number <= shared::kMostBeads; ++number) {
+      const int cells = shared::beadCells(number);
+      ASSERT_LE(cells, 8);
+      const float mean = 0.2f / static_cast<float>(cells);  // none is cut by its cell
+      int seen = 0;
+      double volume = 0.0;
+      for (int k = 0; k < cells * cells; ++k) {
+        const glm::ivec2 cell(k % cells, k / cells);
+        const shared::SeatedBead bead = shared::seatedBead(texel, cell, number, mean);
+        if (bead.size == 0.0f) continue;
+        ++seen;
+        volume += std::pow(static_cast<double>(bead.size), 3.0);
+        const glm::vec2 from = bead.middle - glm::vec2(cell) / static_cast<float>(cells);
+        const float radius = bead.size * mean;
+        for (const float x : {from.x, from.y}) {
+          ASSERT_GE(x, radius - 1e-4f);
+          ASSERT_LE(x, 1.0f / static_cast<float>(cells) - radius + 1e-4f);
+        }
+      }
+      ASSERT_EQ(seen, number);
+      most_off = std::max(most_off, std::abs(volume / number - 1.0));
+    }
+  }
+  EXPECT_LT(most_off, 1e-3);
+}
+
+// A lone one lies whole in its texel, is the same from each cell, and, while it is small, stays where it is
+// when others come.
+TEST(Beads, aLoneOneStaysWhereItIs) {
+  for (uint32_t texel = 0; texel < 1000; ++texel) {
+    const auto seat = [&](int cell, int number, float mean) {
+      return shared::seatedBead(texel, glm::ivec2(cell % 2, cell / 2), number, mean);
+    };
+    const shared::SeatedBead large = seat(0, 1, 0.36f), small = seat(0, 1, 0.02f);
+    EXPECT_EQ(large.size, 1.0f);
+    for (const float x : {large.middle.x, large.middle.y}) {
+      EXPECT_GE(x, 0.36f - 1e-4f);
+      EXPECT_LE(x, 0.64f + 1e-4f);
+    }
+    bool stays = false;
+    for (int cell = 0; cell < 4; ++cell) {
+      EXPECT_EQ(seat(cell, 1, 0.36f).middle, large.middle);
+      const shared::SeatedBead among = seat(cell, 4, 0.02f);
+      stays = stays || glm::distance(among.middle, small.middle) < 0.04f;
+    }
+    EXPECT_TRUE(stays) << texel;
+  }
+}
+
+TEST(Beads, theBentGridIsFoundAgain) {
+  for (int i = 0; i < 1000; ++i) {
+    const glm::vec2 place(static_cast<float>(i % 40) * 13.7f, static_cast<float>(i) * 0.37f);
+    EXPECT_LT(glm::distance(shared::beadPlace(shared::gridPlace(place)), place), 2e-3f);
+  }
+}
+
+class BeadsOnGlass : public GlTest {
+ protected:
+  // A film of which a test says what comes to it, on a pane that lies level.
+  struct Bench {
+    Bench(const GladGLContext& gl, double width_m, double height_m)
+        : mesh(windscreen(width_m, height_m, 1e-4)),
+          sim(paneInfo(mesh), 1, 7),
+          gpu(gl, glass::makeFilmPrograms(gl), sim.map()),
+          info(uncoated()) {
+      info.columns = sim.map().grid().size.x;
+      info.rows = sim.map().grid().size.y;
+      info.up_y = 1.0f;
+    }
+    glass::FilmReport step(const std::function<void(glass::FilmOrder&)>& fill = {}) {
+      glass::FilmOrder order;
+      order.step = steps;
+      order.info = info;
+      order.info.step = static_cast<uint32_t>(2 * steps++);
+      order.drive.assign(sim.map().nodes().size(), {0.0f, 0.0f, 0.0f, 0.0f});
+      if (fill) fill(order);
+      std::vector<glass::FilmOrder> orders;
+      orders.push_back(std::move(order));
+      gpu.run(std::move(orders));
+      return gpu.collect(true).at(0);
+    }
+    int at(int dx, int dy) const { return (info.rows / 2 + dy) * info.columns + info.columns / 2 + dx; }
+    Mesh mesh;
+    glass::PaneSim sim;
+    glass::FilmGl gpu;
+    shared::FilmStepInfo info;
+    int64_t steps = 0;
+  };
+};
+
+// Hu & Larson with a constant contact angle: -dV/dt = k R and V = R^3 shape, so V^(2/3) falls linearly and
+// the time to the end is 3 V0^(2/3) shape^(1/3) / (2 k), for many of one size as for one. The tile sleeps
+// meanwhile.
+TEST_F(BeadsOnGlass, dryInTheTimeOfTheClosedForm) {
+  Bench bench(gl, 0.1, 0.1);
+  const glass::Surface s = glass::surfaceOf(glass::Glass::uncoated);
+  const double k_m2_s = glass::evaporation_kg_s(1.0, glass::meanAngle(s), 0.3, 0.0173) / 1000.0;
+  bench.info.bead_drying_pl_mm =
+      static_cast<float>(k_m2_s * 1e12 * 8.0 * static_cast<double>(shared::kFilmStep_s));
+  const double bead_m3 = 4e-12, shape = glass::capShape(glass::meanAngle(s));
+  const double time_s = 1.5 * std::pow(bead_m3, 2.0 / 3.0) * std::cbrt(shape) / k_m2_s;
+  const int one = bench.at(0, 0), many = bench.at(3, 1);
+  const int pl = static_cast<int>(std::llround(bead_m3 * 1e15));
+  glass::FilmReport report = bench.step([&](glass::FilmOrder& order) {
+    order.bead_adds.push_back({one, pl, 1});
+    order.bead_adds.push_back({many, 12 * pl, 12});
+  });
+  int64_t dried = 0;
+  std::array<double, 2> gone_s{};
+  const auto half = [&](int texel) {
+    return shared::beadsOf(bench.gpu.readBeads()[static_cast<size_t>(texel)]);
+  };
+  bool halfway = false;
+  for (int step = 1; step < 60 * 120 && (gone_s[0] == 0.0 || gone_s[1] == 0.0); ++step) {
+    report = bench.step();
+    for (const shared::FilmTile& tile : report.tiles) dried += tile.evaporated_pl;
+    const double now_s = step * static_cast<double>(shared::kFilmStep_s);
+    if (step % 8 == 0) {
+      const Beads a = half(one), b = half(many);
+      if (a.number == 0 && gone_s[0] == 0.0) gone_s[0] = now_s;
+      if (b.number == 0 && gone_s[1] == 0.0) gone_s[1] = now_s;
+      if (!halfway && now_s > 0.5 * time_s) {
+        halfway = true;
+        const double law = std::pow(1.0 - now_s / time_s, 1.5);
+        EXPECT_NEAR(static_cast<double>(a.volume_pl) / pl, law, 0.03);
+        EXPECT_NEAR(static_cast<double>(b.volume_pl) / (12 * pl), law, 0.03);
+      }
+    }
+  }
+  std::printf("dry after %.2f s and %.2f s, law %.2f s\n", gone_s[0], gone_s[1], time_s);
+  // Eighths of a second, whole picolitres by chance, and an end by 50 pl instead of 0, which is 5 % of the
+  // radius' square.
+  for (const double gone : gone_s) EXPECT_NEAR(gone / time_s, 1.0, 0.06);
+  EXPECT_EQ(dried, 13 * pl);
+}
+
+// A film that flows over them takes them in; one that breaks up leaves them.
+TEST_F(BeadsOnGlass, joinAFilmThatFlowsAndAreWhatABrokenOneLeaves) {
+  Bench bench(gl, 0.1, 0.1);
+  const int texel = bench.at(0, 0);
+  bench.step([&](glass::FilmOrder& order) { order.bead_adds.push_back({texel, 50'000, 2}); });
+  EXPECT_EQ(shared::beadsOf(bench.gpu.readBeads()[static_cast<size_t>(texel)]).volume_pl, 50'000);
+  EXPECT_EQ(bench.gpu.readFilm()[static_cast<size_t>(texel)], 0);
+  bench.step([&](glass::FilmOrder& order) { order.adds.push_back({texel, 90'000}); });  // 10 um
+  EXPECT_EQ(bench.gpu.readBeads()[static_cast<size_t>(texel)], 0u);
+  EXPECT_EQ(bench.gpu.readFilm()[static_cast<size_t>(texel)], 140'000);
+  bench.info.rupture_chance = 1.0f;
+  for (int k = 0; k < 9; ++k) bench.step();
+  const Beads left = shared::beadsOf(bench.gpu.readBeads()[static_cast<size_t>(texel)]);
+  EXPECT_EQ(left.volume_pl, 140'000);
+  EXPECT_GT(left.number, 3);
+  EXPECT_EQ(bench.gpu.readFilm()[static_cast<size_t>(texel)], 0);
+}
+
+// A drop that runs over half a texel takes half of what lies there.
+TEST_F(BeadsOnGlass, aDropTakesItsShare) {
+  Bench bench(gl, 0.1, 0.1);
+  const int texel = bench.at(0, 0);
+  bench.step([&](glass::FilmOrder& order) { order.bead_adds.push_back({texel, 80'000, 8}); });
+  const glass::FilmReport report = bench.step([&](glass::FilmOrder& order) {
+    order.takes.push_back({texel, 32768});
+  });
+  EXPECT_EQ(report.taken_pl.at(0), 40'000);
+  const Beads left = shared::beadsOf(bench.gpu.readBeads()[static_cast<size_t>(texel)]);
+  EXPECT_EQ(left.volume_pl, 40'000);
+  EXPECT_EQ(left.number, 4);
+}
+
+// A blade leaves no bead on its way, and touches none beside it.
+TEST_F(BeadsOnGlass, aBladeTakesAll) {
+  const Mesh mesh = windscreen(0.9, 0.6, 1e-4);
+  Simulation sim(gl, paneInfo(mesh));
+  sim.sim->setWiper(3, wiper(1e-4, 0.6));
+  glass::PaneTick drizzle = weather(0.0);
+  drizzle.class_count = 1;
+  drizzle.classes[0] = {0.5e-3, 4000.0, 2.0};
+  sim.run(drizzle, 2.0);
+  sim.run(weather(0.0), 0.5);
+  const std::vector<uint32_t> before = sim.pane.readBeads();
+  const glass::Sweep sweep{rad(40), rad(100)};
+  glass::PaneTick tick = weather(0.0);
+  tick.wiper_count = 1;
+  constexpr int kTicks = 40;
+  for (int k = 0; k < kTicks; ++k) {
+    const double a = rad(40 + 60.0 * k / kTicks), b = rad(40 + 60.0 * (k + 1) / kTicks);
+    tick.wipers[0] = {3, a, b, b};
+    sim.tick(tick);
+  }
+  const std::vector<uint32_t> after = sim.pane.readBeads();
+  const glass::Wiper blade(wiper(1e-4, 0.6), sim.sim->map(), 0);
+  int wiped = 0, kept = 0;
+  for (int i = 0; i < sim.sim->map().texelCount(); ++i) {
+    if (!sim.sim->map().inside(i)) continue;
+    const auto t = static_cast<size_t>(i);
+    const glass::Crossings c = blade.crossingsAt(glm::dvec3(sim.sim->map().texel(i).position_m));
+    if (c.count > 0 && sweep.covers(c.angle_rad[0])) {
+      EXPECT_EQ(after[t], 0u) << "texel " << i;
+      wiped += before[t] != 0 ? 1 : 0;
+    } else if (before[t] != 0) {
+      ASSERT_EQ(after[t], before[t]) << "texel " << i;
+      ++kept;
+    }
+  }
+  EXPECT_GT(wiped, 1000);
+  EXPECT_GT(kept, 1000);
+  const glass::PaneStats s = sim.stats();
+  EXPECT_GT(s.ridge_pl, 0);
+  EXPECT_EQ(s.caught_pl, sumOf(s));
+}
+
+// Small impacts lie as beads and take no slot; placed drops are drops however small.
+TEST_F(BeadsOnGlass, drizzleIsBeadsAndPlacedDropsAreNot) {
+  const Mesh mesh = windscreen(0.3, 0.2, rad(30));
+  Simulation sim(gl, paneInfo(mesh));
+  glass::PaneTick drizzle = weather(0.0);
+  drizzle.class_count = 1;
+  drizzle.classes[0] = {0.6e-3, 500.0, 2.0};
+  sim.run(drizzle, 0.5);
+  const glass::PaneStats s = sim.stats();
+  EXPECT_EQ(s.drops, 0u);
+  EXPECT_GT(s.beads_pl, 0);
+  EXPECT_EQ(s.caught_pl, sumOf(s));
+  int64_t lying = 0;
+  for (const uint32_t packed : sim.pane.readBeads()) lying += shared::beadsOf(packed).volume_pl;
+  EXPECT_EQ(lying, s.beads_pl);
+  const glass::PlacedDrop drop{0.0, 0.0, 0.2e-3, 0.5};
+  sim.sim->placeDrops({&drop, 1});
+  EXPECT_EQ(sim.stats().drops, 1u);
+}
+
+// At 100 mm/h and 100 km/h slots suffice.
+TEST_F(BeadsOnGlass, slotsSufficeInADownpourAtSpeed) {
+  const Mesh mesh = windscreen(0.75, 0.8, rad(30), 0.03);
+  glass::PaneInfo info = paneInfo(mesh);
+  info.max_drops = 10000;  // half a windscreen, half the slots
+  Simulation sim(gl, info);
+  sim.run(weather(100.0, 27.8, 0.9), 6.0);
+  const glass::PaneStats s = sim.stats();
+  std::printf("drops %u, beads %.1f mL, drops %.1f mL, film %.1f mL of %.1f mL caught\n", s.drops,
+              1e-9 * static_cast<double>(s.beads_pl), 1e-9 * static_cast<double>(s.drops_pl),
+              1e-9 * static_cast<double>(s.film_pl), 1e-9 * static_cast<double>(s.caught_pl));
+  EXPECT_LT(s.drops, 7500u);
+  EXPECT_EQ(s.caught_pl, sumOf(s));
+}
+
+}  // namespace
+}  // namespace rg::test
