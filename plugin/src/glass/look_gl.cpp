@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/constants.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gl/objects.h"
 #include "gl/program.h"
 #include "glass/look_capture_gl.h"
+#include "glass/look_lamps_gl.h"
 #include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
 
@@ -25,7 +27,20 @@ constexpr float kFineRadius_px = 3.0f;
 constexpr float kSteepestRidge_rad = 1.4f;
 
 const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
-const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"};
+const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"}, kLampsEnvironment{"LAMPS", "ENVIRONMENT"};
+const std::array<std::string, 1> kLamps{"LAMPS"};
+
+// What places drops and what draws them.
+struct DropPrograms {
+  DropPrograms(const GladGLContext& gl, std::span<const std::string> defines)
+      : place(gl, {"glass/look_place.comp"}, defines),
+        draw(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}, defines) {}
+  void forget() {
+    place.forget();
+    draw.forget();
+  }
+  gl::Program place, draw;
+};
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -71,10 +86,7 @@ struct GlassLook::Parts {
         outside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
                          gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kEnvironment)},
         small_program(gl, {"glass/look_small.vert", "glass/look_small.frag"}),
-        place_programs{gl::Program(gl, {"glass/look_place.comp"}),
-                       gl::Program(gl, {"glass/look_place.comp"}, kEnvironment)},
-        drop_programs{gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}),
-                      gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}, kEnvironment)},
+        drop_programs{DropPrograms(gl, {}), DropPrograms(gl, kEnvironment)},
         frame_block(gl, sizeof(FrameBlock)),
         mesh_layout(gl),
         no_layout(gl),
@@ -86,7 +98,8 @@ struct GlassLook::Parts {
         no_film(gl, GL_RGBA16F, 1, 1),
         films(gl, false),
         picture(gl),
-        capture(gl) {
+        capture(gl),
+        lamps(gl) {
     no_film.zero();
     mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
     mesh_layout.attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
@@ -101,6 +114,7 @@ struct GlassLook::Parts {
   void drawFilm(const LookPane& pane);
   void placeDrops(const LookPane& pane);
   void drawDrops(const LookPane& pane);
+  const DropPrograms& dropPrograms();
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
     return capture.cube() != 0 ? capture.cube() : light.environment_cube;
@@ -111,7 +125,8 @@ struct GlassLook::Parts {
   std::array<gl::Program, 2> inside_programs;   // for a film of few and of many pixels to a texel
   std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
   gl::Program small_program;
-  std::array<gl::Program, 2> place_programs, drop_programs;
+  std::array<DropPrograms, 2> drop_programs;
+  std::array<std::optional<DropPrograms>, 2> lamp_drop_programs;  // likewise, made when lamps first shine
   gl::Buffer frame_block, seen_drops;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, stepped, mipped, exact;
@@ -119,9 +134,11 @@ struct GlassLook::Parts {
   gl::Texture2D no_film;           // a dry texel
   Canvases films;                  // of look_film.frag
   size_t with_environment = 0, coarse = 0;
+  bool with_lamps = false;
   uint32_t film_seen = 0;  // for the pane being drawn
   LookPicture picture;
   LookCapture capture;
+  LookLamps lamps;
 };
 
 void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, const LookTarget& target,
@@ -240,6 +257,17 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.Disable(GL_CULL_FACE);
 }
 
+// Without lamps drops are drawn as if there were no such thing, to the bit and as fast.
+const DropPrograms& GlassLook::Parts::dropPrograms() {
+  if (!with_lamps) return drop_programs[with_environment];
+  std::optional<DropPrograms>& made = lamp_drop_programs[with_environment];
+  if (!made && with_environment != 0)
+    made.emplace(gl, kLampsEnvironment);
+  else if (!made)
+    made.emplace(gl, kLamps);
+  return *made;
+}
+
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
   const size_t bytes = static_cast<size_t>(pane.drop_count) * kSeenDropBytes;
   if (seen_drops.bytes() < bytes) seen_drops = gl::Buffer(gl, bytes + bytes / 2, 0);
@@ -251,7 +279,7 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen_drops.name());
   gl.BindSampler(kPicture, mipped.name());
-  place_programs[with_environment].use();
+  dropPrograms().place.use();
   gl.DispatchCompute(static_cast<GLuint>(pane.drop_count + kPlaceGroup - 1) / kPlaceGroup, 1, 1);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -262,7 +290,7 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.BindVertexArray(no_layout.name());
   small_program.use();
   gl.DrawArrays(GL_TRIANGLES, 0, 3 * pane.drop_count);
-  drop_programs[with_environment].use();
+  dropPrograms().draw.use();
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
 }
 
@@ -271,8 +299,8 @@ void GlassLook::Parts::forget() {
   for (size_t k : {0u, 1u}) {
     inside_programs[k].forget();
     outside_programs[k].forget();
-    place_programs[k].forget();
     drop_programs[k].forget();
+    if (lamp_drop_programs[k]) lamp_drop_programs[k]->forget();
   }
   frame_block.forget();
   seen_drops.forget();
@@ -284,6 +312,7 @@ void GlassLook::Parts::forget() {
   films.forget();
   picture.forget();
   capture.forget();
+  lamps.forget();
 }
 
 GlassLook::GlassLook(const GladGLContext& gl) : parts_(std::make_unique<Parts>(gl)) {}
@@ -292,6 +321,7 @@ GlassLook::~GlassLook() = default;
 void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target,
                           const LookLight& light) {
   Parts& p = *parts_;
+  p.with_lamps = p.lamps.put(light.lamps, glm::dvec3(glm::inverse(view.eyeFromWorld)[3]));
   std::vector<SeenPane> drawn;  // since the picture was fetched
   for (const SeenPane& seen : seenPanes(panes, view)) {
     const LookPane& pane = *seen.pane;
@@ -299,7 +329,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     const bool stale =
         std::any_of(drawn.begin(), drawn.end(), [&](const SeenPane& far) { return liesBehind(far, seen); });
     if (drawn.empty() || stale) {
-      p.picture.fetch(view.viewport_px, target);
+      p.picture.fetch(view.viewport_px, target, p.with_lamps);
       drawn.clear();
     }
     drawn.push_back(seen);
