@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace host {
@@ -28,6 +29,47 @@ void copyVector(const glm::dvec3& from, double to[3]) {
 
 void copyVector(const glm::vec3& from, float to[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+// The plugin's lamps are cones. One that a low beam fits into lies below the horizon: no light on the drops
+// above it, less than a beam's brightest on those that the cone's middle meets in its stead (chosen by eye).
+constexpr float kBeamHalf_rad = 0.24F, kBeamDown_rad = 0.18F, kBeamShare = 0.4F;
+void dip(rg_lamp& lamp) {
+  const float level = std::hypot(lamp.direction[0], lamp.direction[1]);
+  const float down = std::atan2(-lamp.direction[2], level) + kBeamDown_rad;
+  for (int i = 0; i < 2; ++i) lamp.direction[i] *= std::cos(down) / level;
+  lamp.direction[2] = -std::sin(down);
+  for (float& c : lamp.intensity) c *= kBeamShare;
+  lamp.cos_outer = std::cos(kBeamHalf_rad);
+}
+
+// Those that light falling drops.
+std::vector<rg_lamp> lampsOf(const LightSummary& light) {
+  std::vector<rg_lamp> lamps;
+  for (const LampNow& lamp : light.lamps) {
+    rg_lamp out{};
+    copyVector(lamp.position_m, out.position_m);
+    copyVector(lamp.direction, out.direction);
+    copyVector(lamp.intensity, out.intensity);
+    out.cos_inner = lamp.cos_inner;
+    out.cos_outer = lamp.cos_outer;
+    if (lamp.low_beam) dip(out);
+    lamps.push_back(out);
+  }
+  return lamps;
+}
+
+// Those that drops on the glass show, as bright to all sides as they are to the eye.
+std::vector<rg_lamp> glaresOf(const LightSummary& light) {
+  std::vector<rg_lamp> lamps;
+  for (const Glare& glare : light.glares) {
+    rg_lamp out{};
+    copyVector(glare.position_m, out.position_m);
+    copyVector(glare.intensity, out.intensity);
+    out.cos_inner = out.cos_outer = -1.0F;
+    lamps.push_back(out);
+  }
+  return lamps;
 }
 
 }  // namespace
@@ -89,6 +131,12 @@ void RainPlugin::addVolume(uint32_t id, uint32_t vehicle, const ShelterView& she
 
 void RainPlugin::addRoad(const RoadView& road) {
   for (const ShelterView& s : road.shelters) addVolume(++volumes_, 0, s);
+}
+
+void RainPlugin::addTraffic(const CarView& car, size_t count) {
+  for (uint32_t k = 0; k < count; ++k) {
+    for (const ShelterView& s : car.shelters) addVolume(++volumes_, kFirstTrafficId + k, s);
+  }
 }
 
 void RainPlugin::addCar(const CarView& car) {
@@ -159,16 +207,21 @@ void RainPlugin::prewarm(double seconds) { check(api_->prewarm(instance_, second
 
 void RainPlugin::update(int64_t time_ns) {
   std::vector<rg_vehicle> vehicles;
-  vehicles.reserve(waiting_.size());
+  size_t most = 0;
+  for (const Moment& m : waiting_) most += 1 + m.traffic.size();
+  vehicles.reserve(most);
   std::vector<rg_sample> samples;
   for (Moment& m : waiting_) {
     vehicles.push_back(pluginVehicle(*api_, m.car));
+    const rg_vehicle* first = &vehicles.back();
+    for (size_t k = 0; k < m.traffic.size(); ++k)
+      vehicles.push_back(pluginVehicle(*api_, m.traffic[k], kFirstTrafficId + static_cast<uint32_t>(k)));
     rg_sample s;
     api_->default_sample(&s);
     s.time_ns = m.time_ns;
     s.weather = &m.weather;
-    s.vehicles = &vehicles.back();
-    s.vehicle_count = 1;
+    s.vehicles = first;
+    s.vehicle_count = static_cast<uint32_t>(1 + m.traffic.size());
     s.vehicle_stride = sizeof(rg_vehicle);
     s.views = &m.view;
     s.view_count = 1;
@@ -202,7 +255,8 @@ void RainPlugin::capture(Renderer& renderer, const rg_view& view, int max_faces)
 }
 
 void RainPlugin::draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view,
-                      const Target& target, const LightSummary& light) {
+                      const Target& target, const LightSummary& light, std::span<const rg_lamp> lamps,
+                      bool on_glass) {
   rg_target t;
   api_->default_target(&t);
   t.framebuffer = target.framebuffer();
@@ -217,18 +271,9 @@ void RainPlugin::draw(DrawCall call, const char* name, int64_t time_ns, const rg
   copyVector(light.to_sun, l.sun_direction);
   copyVector(light.sun_irradiance, l.sun_irradiance);
   l.environment_cube = light.environment_cube;
-  std::vector<rg_lamp> lamps;
-  for (const LampNow& lamp : light.lamps) {
-    rg_lamp out{};
-    copyVector(lamp.position_m, out.position_m);
-    copyVector(lamp.direction, out.direction);
-    copyVector(lamp.intensity, out.intensity);
-    out.cos_inner = lamp.cos_inner;
-    out.cos_outer = lamp.cos_outer;
-    lamps.push_back(out);
-  }
   l.lamps = lamps.data();
   l.lamp_count = static_cast<uint32_t>(lamps.size());
+  l.lamps_on_glass = on_glass ? l.lamp_count : 0;
   rg_draw d;
   api_->default_draw(&d);
   d.time_ns = time_ns;
@@ -240,17 +285,17 @@ void RainPlugin::draw(DrawCall call, const char* name, int64_t time_ns, const rg
 
 void RainPlugin::drawWorld(int64_t time_ns, const rg_view& view, const Target& target,
                            const LightSummary& light) {
-  draw(api_->draw_world, "draw_world", time_ns, view, target, light);
+  draw(api_->draw_world, "draw_world", time_ns, view, target, light, lampsOf(light));
 }
 
 void RainPlugin::drawGlass(int64_t time_ns, const rg_view& view, const Target& target,
                            const LightSummary& light) {
-  draw(api_->draw_glass, "draw_glass", time_ns, view, target, light);
+  draw(api_->draw_glass, "draw_glass", time_ns, view, target, light, glaresOf(light), true);
 }
 
 void RainPlugin::drawFinish(int64_t time_ns, const rg_view& view, const Target& target,
                             const LightSummary& light) {
-  draw(api_->draw_finish, "draw_finish", time_ns, view, target, light);
+  draw(api_->draw_finish, "draw_finish", time_ns, view, target, light, {});
 }
 
 rg_rain_stats RainPlugin::rainStats() {
@@ -327,10 +372,10 @@ rg_view pluginView(const rg_api& api, const View& view, glm::ivec2 size_px, glm:
   return v;
 }
 
-rg_vehicle pluginVehicle(const rg_api& api, const CarState& car) {
+rg_vehicle pluginVehicle(const rg_api& api, const CarState& car, uint32_t id) {
   rg_vehicle v;
   api.default_vehicle(&v);
-  v.id = kCarId;
+  v.id = id;
   copyVector(car.position_m, v.pose.position_m);
   copyVector(car.velocity_mps, v.pose.velocity_mps);
   copyVector(car.angular_velocity_radps, v.pose.angular_velocity_radps);

@@ -26,12 +26,14 @@ class PluginError : public std::runtime_error {
 };
 
 inline constexpr uint32_t kCarId = 1;
+inline constexpr uint32_t kFirstTrafficId = 2;
 inline constexpr uint32_t kViewId = 1;
 
 // A moment of the host's world, to be told. Pointers are not kept.
 struct Moment {
   int64_t time_ns = 0;
   CarState car;
+  std::vector<CarState> traffic;
   rg_weather weather;
   rg_view view;
   std::vector<rg_wiper_knot> knots;
@@ -50,6 +52,8 @@ class RainPlugin {
   void attach(Context& context);
   // The car's cabin, panes and wipers. Ids are index + 1.
   void addCar(const CarView& car);
+  // The cabins of so many other cars like it; moments tell where they are.
+  void addTraffic(const CarView& car, size_t count);
   // Shelter of the road.
   void addRoad(const RoadView& road);
   void setParameter(const std::string& name, double value);
@@ -83,8 +87,9 @@ class RainPlugin {
   void check(rg_result result, const char* call);
   void addVolume(uint32_t id, uint32_t vehicle, const ShelterView& shelter);
   using DrawCall = rg_result (*)(rg_instance*, rg_draw*);
+  // `lamps`: those that light the drops, or that are looked at through them (`on_glass`).
   void draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view, const Target& target,
-            const LightSummary& light);
+            const LightSummary& light, std::span<const rg_lamp> lamps, bool on_glass = false);
 
   void* library_ = nullptr;
   const rg_api* api_ = nullptr;
@@ -97,6 +102,6 @@ class RainPlugin {
 
 rg_view pluginView(const rg_api& api, const View& view, glm::ivec2 size_px, glm::dvec3 eye_velocity_mps,
                    uint32_t vehicle);
-rg_vehicle pluginVehicle(const rg_api& api, const CarState& car);
+rg_vehicle pluginVehicle(const rg_api& api, const CarState& car, uint32_t id = kCarId);
 
 }  // namespace host

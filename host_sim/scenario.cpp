@@ -10,6 +10,7 @@ namespace host {
 namespace {
 
 constexpr double kKmh = 1.0 / 3.6;
+constexpr size_t kMostTraffic = 32;  // each is drawn whole
 
 // Reads a table key by key; finish() refuses what nobody asked for.
 class Reader {
@@ -111,6 +112,24 @@ void readDrive(Reader drive, DrivePlan& plan) {
     }
   }
   drive.finish();
+}
+
+void readTraffic(Reader& top, Scenario& s) {
+  const toml::node* node = top.find("traffic");
+  if (node == nullptr) return;
+  if (!node->is_array()) top.refuse("traffic", "must be a list of [way in m, km/h]");
+  for (const toml::node& item : *node->as_array()) {
+    const toml::array* pair = item.as_array();
+    const bool numbers =
+        pair != nullptr && pair->size() == 2 && pair->get(0)->is_number() && pair->get(1)->is_number();
+    if (!numbers) top.refuse("traffic", "must be a list of [way in m, km/h]");
+    const double way_m = *pair->get(0)->value<double>(), speed_kmh = *pair->get(1)->value<double>();
+    if (!(std::abs(way_m) <= 1e6)) top.refuse("traffic", "has a way that is not within 1e6 m");
+    if (!(std::abs(speed_kmh) <= 210.0)) top.refuse("traffic", "has a speed that is not -210 .. 210 km/h");
+    s.traffic.push_back({way_m, speed_kmh * kKmh});
+  }
+  if (s.traffic.size() > kMostTraffic)
+    top.refuse("traffic", "has more than " + std::to_string(kMostTraffic) + " cars");
 }
 
 void readWeather(Reader weather, Scenario& s) {
@@ -256,6 +275,7 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   models.finish();
   readDrive(top.section("drive"), s.plan);
   readWeather(top.section("weather"), s);
+  readTraffic(top, s);
   readWipers(top, s);
   s.wiper_pause_s = top.number("wiper_pause_s", kIntermittentPause_s, 0.5, 60.0);
   readWashes(top, s);

@@ -10,6 +10,7 @@
 
 #include "drive/curve.h"
 #include "drive/driver.h"
+#include "drive/traffic.h"
 #include "drive/wiper_control.h"
 #include "scene/meaning.h"
 
@@ -35,6 +36,7 @@ struct Scenario {
   uint64_t seed = 1;
   std::filesystem::path car, road;  // empty: none
   DrivePlan plan;
+  std::vector<TrafficCar> traffic;
   Curve rain_mm_h{0.0}, snow_mm_h{0.0}, hail_mm_h{0.0};  // as water
   Curve wind_x_mps{0.0}, wind_y_mps{0.0};
   Curve temperature_c{12.0}, humidity{0.9};

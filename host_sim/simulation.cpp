@@ -163,6 +163,7 @@ void Simulation::tell() {
   m.time_ns = hostTickNs(tick_);
   m.car = driver_.state();
   if (timeS() <= 0.0) m.car.velocity_mps = m.car.angular_velocity_radps = glm::dvec3(0.0);
+  m.traffic = trafficAt(m.time_ns - prewarm_ns_);
   const Weather w = weather();
   plugin_.api().default_weather(&m.weather);
   m.weather.rain_mm_h = w.rain_mm_h;
@@ -188,6 +189,13 @@ CarState Simulation::carAt(int64_t time_ns) const {
   CarState car = driver_.at(timeS() <= 0.0 ? 0.0 : since_s);
   if (timeS() <= 0.0) car.velocity_mps = car.angular_velocity_radps = glm::dvec3(0.0);
   return car;
+}
+
+std::vector<CarState> Simulation::trafficAt(int64_t time_ns) const {
+  std::vector<CarState> cars;
+  for (const TrafficCar& car : scenario_.traffic)
+    cars.push_back(host::trafficAt(route_, car, static_cast<double>(time_ns) * 1e-9));
+  return cars;
 }
 
 Eye Simulation::eyeAt(int64_t time_ns) const { return eyeOf(carAt(time_ns)); }

@@ -73,6 +73,7 @@ class Simulation {
   int64_t pluginTime(int64_t time_ns) const { return time_ns + prewarm_ns_; }
 
   CarState carAt(int64_t time_ns) const;
+  std::vector<CarState> trafficAt(int64_t time_ns) const;  // the scenario's, one by one
   Eye eyeAt(int64_t time_ns) const;
   rg_view pluginViewAt(int64_t time_ns) const;
   Weather weather() const;

@@ -84,7 +84,9 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   renderer_ = std::make_unique<Renderer>(context);
   if (road_scene_) addRoad();
   if (car_scene_) {
-    car_instance_ = renderer_->addInstance(renderer_->addScene(*car_scene_, SceneFrame::Car));
+    const SceneId car = renderer_->addScene(*car_scene_, SceneFrame::Car);
+    car_instance_ = renderer_->addInstance(car);
+    for (size_t k = 0; k < scenario.traffic.size(); ++k) traffic_.push_back(renderer_->addTraffic(car));
     poses_ = car_scene_->restPoses();
   }
   if (!options.environment.empty()) {
@@ -95,6 +97,7 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   plugin_->attach(context);
   plugin_->addRoad(road_);
   plugin_->addCar(car_);
+  plugin_->addTraffic(car_, scenario.traffic.size());
   for (const auto& [name, value] : scenario.parameters) {
     try {
       plugin_->setParameter(name, value);
@@ -112,6 +115,7 @@ void Stage::addRoad() {
   sky.to_sun = toSun();
   Placement placement;
   placement.lamp_levels[static_cast<size_t>(LightRole::Street)] = streetLampGain(sky);
+  placement.display_level = litWindowLevel(sky);
   renderer_->place(*road_instance_, placement);
 }
 
@@ -183,6 +187,21 @@ void Stage::pose(int64_t time_ns) {
   placement.display_level =
       static_cast<float>(std::clamp(kDisplayGain * simulation_->adaptedLuminance(), kDimmestDisplay, 1.0));
   renderer_->place(*car_instance_, placement);
+  poseTraffic(time_ns);
+}
+
+// Others drive with their lights on, whatever we do.
+void Stage::poseTraffic(int64_t time_ns) {
+  const std::vector<CarState> cars = simulation_->trafficAt(time_ns);
+  for (size_t k = 0; k < traffic_.size(); ++k) {
+    Placement placement;
+    placement.world_from_host = glm::mat4_cast(cars[k].orientation);
+    placement.world_from_host[3] = glm::dvec4(cars[k].position_m, 1.0);
+    placement.lamp_levels[static_cast<size_t>(LightRole::Head)] = 1.0F;
+    placement.lamp_levels[static_cast<size_t>(LightRole::Tail)] = 1.0F;
+    placement.display_level = static_cast<float>(kDimmestDisplay);
+    renderer_->place(traffic_[k], placement);
+  }
 }
 
 void Stage::draw(int64_t time_ns, const Target& target, uint32_t framebuffer, int captures) {

@@ -51,6 +51,7 @@ class Stage {
 
  private:
   void pose(int64_t time_ns);
+  void poseTraffic(int64_t time_ns);
   Sky sky(int64_t time_ns) const;
   glm::vec3 toSun() const;
   void addRoad();
@@ -62,6 +63,7 @@ class Stage {
   RoadView road_;
   std::unique_ptr<Renderer> renderer_;
   std::optional<InstanceId> car_instance_, road_instance_;
+  std::vector<InstanceId> traffic_;
   std::unique_ptr<RainPlugin> plugin_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<Pose> poses_;

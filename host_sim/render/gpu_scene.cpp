@@ -68,6 +68,7 @@ GpuScene::GpuScene(const GladGLContext& gl, const Scene& scene, SceneFrame its_f
     lamps.push_back({index, meaning ? static_cast<int>(meaning->role) : -1,
                      scene.lights[static_cast<std::size_t>(node.light)]});
   }
+  if (frame == SceneFrame::Car) measureGlows(scene);
   measureShelters(scene);
 }
 
@@ -161,6 +162,40 @@ void GpuScene::uploadMeshes(const Scene& scene) {
   attribute(2, 2, GL_FLOAT, GL_FALSE, offsetof(MergedVertex, uv));
   attribute(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(MergedVertex, colour));
   attribute(4, 4, GL_BYTE, GL_TRUE, offsetof(MergedVertex, tangent));
+}
+
+/// Headlights have lights of their own beside their mesh. A mesh holds the lamps of both sides.
+void GpuScene::measureGlows(const Scene& scene) {
+  for (int index : scene.order) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+    const auto* meaning = std::get_if<LightMeaning>(&node.meaning);
+    if (meaning == nullptr || node.mesh < 0 || meaning->role == LightRole::Head) continue;
+    const glm::mat4 matrix = host_from_file * node.scene_from_node;
+    GpuGlow sides[2];
+    glm::vec3 normals[2]{}, middles[2]{};
+    float areas[2]{};
+    for (const Primitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      const glm::vec3 glow = scene.materials[static_cast<std::size_t>(p.material)].emissive * kGlow;
+      for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+        glm::vec3 t[3];
+        for (std::size_t k = 0; k < 3; ++k)
+          t[k] = glm::vec3(matrix * glm::vec4(p.positions_m[p.indices[i + k]], 1.0F));
+        const glm::vec3 area = 0.5F * glm::cross(t[1] - t[0], t[2] - t[0]);
+        const glm::vec3 middle = (t[0] + t[1] + t[2]) / 3.0F;
+        const std::size_t side = middle.y > 0.0F ? 0 : 1;
+        normals[side] += area;
+        middles[side] += glm::length(area) * middle;
+        areas[side] += glm::length(area);
+        sides[side].radiance_area = glow;
+      }
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+      const float area_m2 = glm::length(normals[side]);  // what of it faces one way
+      if (area_m2 <= 0.0F) continue;
+      glows.push_back({static_cast<int>(meaning->role), middles[side] / areas[side], normals[side] / area_m2,
+                       sides[side].radiance_area * area_m2});
+    }
+  }
 }
 
 void GpuScene::measureShelters(const Scene& scene) {

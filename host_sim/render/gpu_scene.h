@@ -13,6 +13,10 @@ namespace host {
 
 enum class SceneFrame;
 
+/// A glowing surface of emissive factor 1, 1000 cd/m^2: a lit window or lamp cover that is seen to glow by
+/// day.
+constexpr float kGlow = 6.0F;
+
 /// Which of a program's variants a material needs (names in shaders/scene.frag).
 enum Feature : unsigned {
   kBaseMap = 1,
@@ -55,6 +59,13 @@ struct GpuLamp {
   Light light;
 };
 
+/// A lamp's glowing mesh on one side of a car, as far as light goes that it sends afar.
+struct GpuGlow {
+  int role = -1;
+  glm::vec3 position_m{0.0F}, normal{0.0F};  ///< host's frame of the scene
+  glm::vec3 radiance_area{0.0F};             ///< intensity along the normal, 1000 cd
+};
+
 struct GpuGrid {
   SkyGrid grid;
   GLuint texture = 0;
@@ -74,6 +85,7 @@ class GpuScene {
   std::vector<GpuMaterial> materials;
   std::vector<GpuDraw> draws;
   std::vector<GpuLamp> lamps;
+  std::vector<GpuGlow> glows;  ///< of a car
   std::vector<GpuGrid> grids;  ///< in the host's frame of the scene
   GLuint vertex_array = 0;
   glm::vec4 footprint{0.0F};  ///< of a car: half length, half width, middle along x (m), 1
@@ -81,6 +93,7 @@ class GpuScene {
  private:
   void uploadMaterials(const Scene& scene);
   void uploadMeshes(const Scene& scene);
+  void measureGlows(const Scene& scene);
   void measureShelters(const Scene& scene);
   GLuint upload(const Scene& scene, const TextureUse& use, bool mask);
 

@@ -65,9 +65,10 @@ void Painter::setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<cons
     const LampAt at{glm::vec3(lamp.position_m - eye_m), lampReach(lamp)};
     frame_.lamp_place[i] = glm::vec4(at.place, 1.0F / (at.reach_m * at.reach_m));
     frame_.lamp_aim[i] = glm::vec4(lamp.direction, lamp.cos_outer);
-    frame_.lamp_intensity[i] =
-        glm::vec4(lamp.intensity,
-                  lamp.cos_outer <= -1.0F ? 1e6F : 1.0F / std::max(lamp.cos_inner - lamp.cos_outer, 1e-3F));
+    frame_.lamp_intensity[i] = glm::vec4(
+        lamp.intensity, lamp.low_beam             ? -1.0F
+                        : lamp.cos_outer <= -1.0F ? 1e6F
+                                                  : 1.0F / std::max(lamp.cos_inner - lamp.cos_outer, 1e-3F));
     lamps_.push_back(at);
   }
   gl_.NamedBufferSubData(frame_buffer_, 0, sizeof(FrameBlock), &frame_);
@@ -110,15 +111,17 @@ Painter::Grids Painter::gridsOf(const DrawItem& item) const {
 void Painter::setMaterial(const Program& program, const DrawItem& item, unsigned features) const {
   const GpuMaterial& material = item.material();
   const int role = item.draw->role;
-  const Placement& placement = item.instance->placement;
-  const float level =
-      role < 0 ? placement.display_level : placement.lamp_levels[static_cast<std::size_t>(role)];
   const bool road = item.instance->scene->frame == SceneFrame::Road;
+  const Placement& placement = item.instance->placement;
+  const float level = role < 0       ? (material.glow_map != 0 || !road ? placement.display_level : 1.0F)
+                      : lamps_shown_ ? placement.lamp_levels[static_cast<std::size_t>(role)]
+                                     : 0.0F;
   program.set("u_base", material.base);
   program.set("u_surface", material.surface);
   program.set("u_glow", material.glow * level);
   program.set("u_wet", road ? glm::vec2(1.0F, material.film) : glm::vec2(0.0F));
   program.set("u_open", item.instance->open);
+  program.set("u_roofed", road ? 0.0F : 1.0F);
   if (features & kBaseMap) gl_.BindTextureUnit(0, material.base_map);
   if (features & kRoughnessMap) gl_.BindTextureUnit(1, material.roughness_map);
   if (features & kNormalMap) gl_.BindTextureUnit(2, material.normal_map);

@@ -42,6 +42,8 @@ class Painter {
   void setFrame(const FrameBlock& frame, glm::dvec3 eye_m, std::span<const LampNow> lamps,
                 std::span<const PlacedGrid> grids, const FrameTextures& textures);
   Painted paint(const DrawList& list);
+  /// Whether lamps' meshes glow; told anew before each frame's draws.
+  void showLamps(bool shown) { lamps_shown_ = shown; }
 
  private:
   struct LampAt {
@@ -70,6 +72,7 @@ class Painter {
   glm::dvec3 eye_m_{0.0};
   std::vector<LampAt> lamps_;
   std::span<const PlacedGrid> grids_;
+  bool lamps_shown_ = true;
 };
 
 }  // namespace host

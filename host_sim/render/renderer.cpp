@@ -15,9 +15,6 @@
 namespace host {
 namespace {
 
-/// A glowing surface of emissive factor 1, 1000 cd/m^2: a lit window or lamp cover that is seen to glow by
-/// day.
-constexpr float kGlow = 6.0F;
 /// From below the ground nothing hides what is far, so all of it would be drawn; and far ground has left the
 /// plane.
 constexpr float kMirrorReach_m = 120.0F;
@@ -51,7 +48,8 @@ struct Renderer::Self {
         picture_background(gl, {"full.vert"}, {"latlong.glsl", "background.frag"}, {"PICTURE"}),
         compressing(gl, {"full.vert"}, {"smooth.frag"}, {"COMPRESS"}),
         smoothing(gl, {"full.vert"}, {"smooth.frag"}),
-        tone(gl, {"full.vert"}, {"tone.frag"}) {
+        tone(gl, {"full.vert"}, {"tone.frag"}),
+        glare(gl, {"frame.glsl", "glare.vert"}, {"glare.frag"}) {
     gl.CreateVertexArrays(1, &no_vertices);
   }
   ~Self() { gl.DeleteVertexArrays(1, &no_vertices); }
@@ -62,7 +60,7 @@ struct Renderer::Self {
   Environment environment;
   Shadow shadow;
   Painter painter;
-  Program background, picture_background, compressing, smoothing, tone;
+  Program background, picture_background, compressing, smoothing, tone, glare;
   GLuint no_vertices = 0;
   std::unique_ptr<MirrorPicture> mirror_picture;
   std::unique_ptr<ColourPicture> unsmoothed;
@@ -71,11 +69,14 @@ struct Renderer::Self {
   std::deque<Instance> instances;
   std::vector<PlacedGrid> grids;
   std::vector<LampNow> lamps;
+  std::vector<Glare> glares;
   Sky sky;
   bool timing = false;
   std::vector<PassTime> times;
 
   bool isRoad(const Instance& instance) const { return instance.scene->frame == SceneFrame::Road; }
+  What world() const;
+  void paintGlares(const View& view, glm::ivec2 size_px);
   void placeGrids();
   void gatherLamps(glm::dvec3 eye_m);
   FrameBlock frameFor(const View& view, glm::ivec2 size_px, glm::dvec3 eye_m) const;
@@ -123,6 +124,48 @@ void Renderer::Self::gatherLamps(glm::dvec3 eye_m) {
     return glm::distance(a.position_m, eye_m) < glm::distance(b.position_m, eye_m);
   });
   if (lamps.size() > kMaxLamps) lamps.resize(kMaxLamps);
+  glares.clear();
+  for (const Instance& instance : instances) {
+    if (!isRoad(instance)) instance.addGlares(eye_m, glares);
+  }
+}
+
+/// Roads and the cars among which ours drives.
+Renderer::Self::What Renderer::Self::world() const {
+  What what;
+  for (const Instance& instance : instances) {
+    if (isRoad(instance) || instance.traffic) what.emplace_back(&instance, kBody | kWipers | kPanes);
+  }
+  return what;
+}
+
+/// Stands a little before its lamp, so that the lamp's own mesh does not hide it.
+void Renderer::Self::paintGlares(const View& view, glm::ivec2 size_px) {
+  constexpr float kBefore_m = 0.15F;
+  const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
+  gl.Enable(GL_BLEND);
+  gl.BlendFunc(GL_ONE, GL_ONE);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_GREATER);
+  gl.DepthMask(GL_FALSE);
+  gl.Disable(GL_CULL_FACE);
+  gl.BindVertexArray(no_vertices);
+  glare.use();
+  glare.set("u_focal", 0.5F * glm::vec2(size_px) *
+                           glm::vec2(static_cast<float>(view.projection[0][0]),
+                                     static_cast<float>(view.projection[1][1])));
+  for (const Glare& lamp : glares) {
+    if (lamp.radius_m <= 0.0F) continue;
+    const glm::vec3 place(lamp.position_m - eye_m);
+    const float distance_m = std::max(glm::length(place), 2.0F * kBefore_m);
+    const float clear = std::exp(-static_cast<float>(extinction(sky)) * distance_m);
+    const float area_m2 = 3.14159F * lamp.radius_m * lamp.radius_m;
+    glare.set("u_place", glm::vec4(place * (1.0F - kBefore_m / distance_m), lamp.radius_m));
+    glare.set("u_radiance", lamp.intensity * (clear / area_m2));
+    gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
 }
 
 void Renderer::Self::findCar(glm::dvec3 eye_m) {
@@ -130,7 +173,7 @@ void Renderer::Self::findCar(glm::dvec3 eye_m) {
   double nearest_m = 30.0;
   for (const Instance& instance : instances) {
     const double distance_m = glm::distance(glm::dvec3(instance.worldFromHost()[3]), eye_m);
-    if (isRoad(instance) || distance_m > nearest_m) continue;
+    if (isRoad(instance) || instance.traffic || distance_m > nearest_m) continue;
     nearest_m = distance_m;
     nearest_car = &instance;
   }
@@ -284,6 +327,12 @@ SceneId Renderer::addScene(const Scene& scene, SceneFrame frame) {
   return static_cast<SceneId>(self_->scenes.size() - 1);
 }
 
+InstanceId Renderer::addTraffic(SceneId scene) {
+  const InstanceId id = addInstance(scene);
+  self_->instances.at(id).traffic = true;
+  return id;
+}
+
 InstanceId Renderer::addInstance(SceneId scene) {
   Instance instance;
   instance.scene = &self_->scenes.at(scene);
@@ -328,10 +377,7 @@ void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
 
 void Renderer::drawWorld(const View& view, const Target& target, std::span<const InstanceId> whole) {
   Self& self = *self_;
-  Self::What what;
-  for (const Instance& instance : self.instances) {
-    if (self.isRoad(instance)) what.emplace_back(&instance, kBody | kWipers | kPanes);
-  }
+  Self::What what = self.world();
   for (InstanceId id : whole) what.emplace_back(&self.instances.at(id), kBody);
   bool mirror = false;
   self.timed("mirror", [&] {
@@ -344,6 +390,7 @@ void Renderer::drawWorld(const View& view, const Target& target, std::span<const
   self.timed("world", [&] {
     const Painted painted = self.paintFrom(view, target.sizePx(), what, 0.001F, mirror);
     self.paintSky(turnedOnly(view));
+    self.paintGlares(view, target.sizePx());
     return painted;
   });
 }
@@ -362,13 +409,11 @@ void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const gl
   self.begin(framebuffer, size_px);
   const float far = 0.0F;
   self.gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
-  Self::What what;
-  for (const Instance& instance : self.instances) {
-    if (self.isRoad(instance)) what.emplace_back(&instance, kBody | kWipers | kPanes);
-  }
   const View view{eye_from_world, projection};
   self.timed("capture", [&] {
-    const Painted painted = self.paintFrom(view, size_px, what, 0.012F);
+    self.painter.showLamps(false);
+    const Painted painted = self.paintFrom(view, size_px, self.world(), 0.012F);
+    self.painter.showLamps(true);
     self.paintSky(turnedOnly(view));
     return painted;
   });
@@ -408,6 +453,7 @@ LightSummary Renderer::lighting() const {
     light.sun_irradiance = sunIrradiance(self.sky);
   }
   light.lamps = self.lamps;
+  light.glares = self.glares;
   light.environment_cube = self.environment.mirrored();
   return light;
 }

@@ -54,7 +54,8 @@ struct Placement {
   std::vector<Pose> poses;
   /// How bright lamps shine and glowing meshes glow, by LightRole; 1 = as in the file, 0 = off.
   std::array<float, 6> lamp_levels{0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F};
-  /// How bright meshes without a role glow, such as a car's displays; 1 = as in the file.
+  /// How bright meshes without a role glow, such as a car's displays; of a road those alone whose glow is a
+  /// picture (windows, signs), not lamps' glass; 1 = as in the file.
   float display_level = 1.0F;
 };
 
@@ -71,6 +72,14 @@ struct LampNow {
   glm::vec3 intensity{0.0F};
   float cos_inner = -1.0F;
   float cos_outer = -1.0F;
+  bool low_beam = false;  ///< spreads its light as lowBeam() says instead of the cone, which is a coarse one
+};
+
+/// A car's lamp as it is looked into: a small bright disc.
+struct Glare {
+  glm::dvec3 position_m{0.0};
+  glm::vec3 intensity{0.0F};  ///< towards the eye, 1000 cd
+  float radius_m = 0.0F;      ///< 0: its mesh glows, no disc is drawn
 };
 
 /// What light there is, as rg_lighting wants it.
@@ -80,6 +89,7 @@ struct LightSummary {
   glm::vec3 to_sun{0.0F};
   glm::vec3 sun_irradiance{0.0F};
   std::vector<LampNow> lamps;          ///< those that are lit, nearest to the eye first
+  std::vector<Glare> glares;           ///< cars' lamps as the eye looks into them; drawScene leaves them out
   std::uint32_t environment_cube = 0;  ///< linear radiance with mips, world axes
 };
 
@@ -103,6 +113,8 @@ class Renderer {
   /// (rays against its own triangles), so that tunnels are dark and canopies give shade. `scene` is not kept.
   SceneId addScene(const Scene& scene, SceneFrame frame);
   InstanceId addInstance(SceneId scene);
+  /// A car among others, seen in every picture as the road is, by the glass too.
+  InstanceId addTraffic(SceneId scene);
   void place(InstanceId instance, const Placement& placement);
 
   /// A picture of all around at infinity, instead of the computed sky: `rgb` is latitude-longitude, row 0 up,
@@ -120,7 +132,8 @@ class Renderer {
   /// Smooths the edges in the target's colour, as they will be seen at `exposure`: before rain and panes,
   /// which are drawn smooth.
   void smooth(const Target& target, double exposure);
-  /// World as the glass sees it, for rg_capture_fn: sky and roads, coarser. Clears the framebuffer.
+  /// World as the glass sees it, for rg_capture_fn: sky, roads and traffic, coarser, cars' lamps dark (the
+  /// glass is told of them as `glares`). Clears the framebuffer.
   void drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const glm::dmat4& eye_from_world,
                  const glm::dmat4& projection);
   /// Writes the target's colour, times `exposure`, through a filmic curve as sRGB into `framebuffer` (0: the

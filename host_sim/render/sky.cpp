@@ -82,4 +82,9 @@ float streetLampGain(const Sky& sky) {
   return static_cast<float>(1.0 + 9.0 * std::cbrt(std::min(daylight(sky), 1.0)));
 }
 
+float litWindowLevel(const Sky& sky) {
+  constexpr float kByNight = 0.016F;  // of the 6000 cd/m^2 of emission 1
+  return kByNight + (1.0F - kByNight) * std::cbrt(static_cast<float>(std::min(daylight(sky), 1.0)));
+}
+
 }  // namespace host

@@ -15,7 +15,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 car;            // xy half length and width of its footprint, z middle of it along the car, w 1 where there is one
   vec4 lamp_place[kMaxLamps];      // xyz, w 1 / range^2
   vec4 lamp_aim[kMaxLamps];        // xyz where to, w cos of the outer cone
-  vec4 lamp_intensity[kMaxLamps];  // rgb, w 1 / (cos inner - cos outer)
+  vec4 lamp_intensity[kMaxLamps];  // rgb, w 1 / (cos inner - cos outer), < 0: a dipped headlight
 } frame;
 
 // sRGB to linear without a power (fitted polynomial, error below 0.002).

@@ -21,6 +21,7 @@ uniform vec4 u_surface;      // metallic, roughness, cutoff, normal scale
 uniform vec3 u_glow;
 uniform vec2 u_wet;          // x: how wet it can get, y: how much of a glossy film it holds
 uniform float u_open;        // share of the sky's light that reaches the place as a whole
+uniform float u_roofed;      // 1: what stands above a shelter hides lamps too, as a car's roof does
 uniform int u_lamp_count;
 uniform ivec4 u_lamps[4];
 #ifdef SHELTER
@@ -71,6 +72,16 @@ float puddles(vec2 p) {
   return clamp(0.5 + 0.4 * broad + 0.2 * sin(r.x) * sin(r.y), 0.0, 1.0);
 }
 
+// A dipped headlight: brightest a degree below the horizon, a tenth of that 10 degrees down, half of it 9.5 degrees to a side, and above the
+// cut-off what UNECE R112 leaves (0.7 lx at 25 m are 440 cd). The shape between those points is chosen. As render/low_beam.cpp.
+float lowBeam(vec3 away, vec3 aim) {
+  float down = aim.z + 0.0436 - away.z;
+  float aside = aim.x * away.y - aim.y * away.x;
+  float below = smoothstep(-0.003, 0.012, down) / (1.0 + down * down * 278.0);
+  float ahead = dot(away, aim);
+  return ahead > 0.0 ? below * exp2(-36.0 * aside * aside) + 0.016 * ahead : 0.0;
+}
+
 void main() {
   vec4 base = u_base * v_colour;
 #ifdef BASE_MAP
@@ -94,6 +105,8 @@ void main() {
   roughness *= rm.x;
   metallic *= rm.y;
 #endif
+
+  float dry_roughness = roughness;
 
   float distance_m = length(v_position);
   vec3 to_eye = -v_position / max(distance_m, 1e-4);
@@ -186,6 +199,10 @@ void main() {
   shine += sun * highlight(alpha2, facing, by_sun, max(dot(n, half_sun), 0.0)) * (reflectance + (1.0 - reflectance) * fresnel_sun);
 #endif
 
+  // Rough ground sends light back to where it came from: Oren & Nayar's (1994) term of that with facets of 0.6 rad, by which dry asphalt returns
+  // some 10 mcd/m^2 for a lux of headlight 30 m ahead, as it does by EN 1436. A film of water drowns most of it (unsourced).
+  float returned = 0.36 * u_wet.x * (1.0 - metallic) * smoothstep(0.5, 0.8, dry_roughness) * (1.0 - 0.7 * film);
+  float level = max(dot(n, to_eye), 0.0);
   for (int i = 0; i < u_lamp_count; ++i) {
     int lamp = u_lamps[i >> 2][i & 3];
     vec4 place = frame.lamp_place[lamp];
@@ -197,10 +214,17 @@ void main() {
     float cone = clamp((dot(-to_lamp, aim.xyz) - aim.w) * intensity.w, 0.0, 1.0);
     float window = clamp(1.0 - d2 * d2 * place.w * place.w, 0.0, 1.0);
     float lit = clamp(dot(n, to_lamp), 0.0, 1.0);
-    vec3 incoming = intensity.rgb * (cone * cone * window * window * lit / max(d2, 0.05));
+    float beam = intensity.w < 0.0 ? lowBeam(-to_lamp, aim.xyz) : cone * cone;
+#ifdef SHELTER
+    // The roof that keeps the sky out keeps a lamp above it out.
+    float through = (seen.x + dot(seen.yzw, to_lamp)) / max(0.333 + 0.583 * to_lamp.z, 0.12);
+    beam *= 1.0 - u_roofed * (shelter - clamp(through, 0.0, shelter));
+#endif
+    vec3 incoming = intensity.rgb * (beam * window * window * lit / max(d2, 0.05));
     vec3 half_way = normalize(to_eye + to_lamp);
     float fresnel = exp2(-9.28 * max(dot(half_way, to_eye), 0.0));
-    light += incoming * (1.0 / 3.14159);
+    float against = max(dot(to_lamp, to_eye) - lit * level, 0.0) / max(max(lit, level), 0.02);
+    light += incoming * ((1.0 + returned * against) / 3.14159);
     shine += incoming * highlight(alpha2, facing, lit, max(dot(n, half_way), 0.0)) * (reflectance + (1.0 - reflectance) * fresnel);
   }
 

@@ -134,12 +134,14 @@ void readLamps(const rg_lighting& in, DrawRequest& out) {
     l.cos_outer = lamp.cos_outer;
     out.lamps.push_back(l);
   }
+  checkRange(in.lamps_on_glass, 0.0, in.lamp_count, "rg_lighting.lamps_on_glass");
+  out.lamps_on_glass = in.lamps_on_glass;
 }
 
 void readLighting(const rg_lighting* in, DrawRequest& out) {
   rg_lighting light;
   defaultLighting(&light);
-  if (in != nullptr) light = readStruct(in, "rg_lighting");
+  if (in != nullptr) light = readStruct(in, "rg_lighting", light);
   out.lighting.sky_radiance = radiance(light.sky_radiance, "rg_lighting.sky_radiance");
   out.lighting.ground_radiance = radiance(light.ground_radiance, "rg_lighting.ground_radiance");
   out.lighting.sun_irradiance = radiance(light.sun_irradiance, "rg_lighting.sun_irradiance");

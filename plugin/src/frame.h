@@ -69,6 +69,7 @@ struct DrawRequest {
   uint32_t depth_texture = 0;
   rain::RainLighting lighting;
   std::vector<rain::DropLamp> lamps;
+  size_t lamps_on_glass = 0;  // the first of `lamps`, which drops on panes show too
 };
 
 class Frame {

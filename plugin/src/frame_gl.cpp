@@ -269,6 +269,8 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
   light.environment_cube = request.lighting.environment_cube;
   light.sky_radiance = request.lighting.sky_radiance;
   light.ground_radiance = request.lighting.ground_radiance;
+  for (const rain::DropLamp& lamp : std::span(request.lamps).first(request.lamps_on_glass))
+    light.lamps.push_back({lamp.position_m, lamp.direction, lamp.intensity, lamp.cos_inner, lamp.cos_outer});
   light.cabin_share = request.view.vehicle != 0 ? kCabinLight : 1.0f;
   for (int i = 0; i < static_cast<int>(settings().bench_repeat); ++i)
     gl.look->drawPanes(seen, view, target, light);

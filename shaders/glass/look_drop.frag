@@ -59,6 +59,9 @@ void main() {
   vec3 middle_from_eye = (drop.position_radius.xyz - frame.eye_in_vehicle.xyz) * vehicle_from_drop;
   vec3 to_glass = middle_from_eye + vec3(base * drop.position_radius.w, 0.0);
   vec3 d = normalize(to_glass);
+#ifdef LAMPS
+  lamps_seen_from = world_from_drop * to_glass;
+#endif
   eye_outside = d.z < 0.0;
   cabin = decode(textureLod(picture, (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw, 3.0).rgb);
   vec2 dx = dFdx(base);

@@ -62,16 +62,28 @@ bool inSight(vec4 clip, float radius_m) {
 const float kSmall_px = 1.6;  // radius; drops below are too small to show more than one colour
 const float kPlain_px = 5.0;  // radius; drops below show nothing of late reflections
 
-// A drop's light as a whole: that of four places about its middle, each standing for a quarter of it.
+// A drop's light as a whole: that of four places about its middle, each standing for a quarter of it; of twelve where there are lamps, which a
+// drop shows in one place alone.
 vec3 meanLight(Cap cap, Place place, vec3 d, vec4 clip) {
   world_from_drop = mat3(frame.world_from_vehicle) * mat3(place.head, cross(place.normal, place.head), place.normal);
   eye_outside = d.z < 0.0;
+#ifdef LAMPS
+  lamps_seen_from = mat3(frame.world_from_vehicle) * (place.position_m - frame.eye_in_vehicle.xyz);
+#endif
   cabin = decode(textureLod(picture, clamp(clip.xy / max(clip.w, 1e-3) * 0.5 + 0.5, 0.0, 1.0), 3.0).rgb);
   vec3 sum = vec3(0.0);
+#ifdef LAMPS
+  for (int k = 0; k < 16; ++k) {
+    vec2 at = 0.5 * vec2(k % 4, k / 4) - 0.75;
+    if (dot(at, at) > 1.0) continue;
+    sum += lightThrough(cap, vec2(at.x * cap.stretch, at.y), d, 0.51 * sqrt(abs(d.z)), 2) * (1.0 / 3.0);
+  }
+#else
   for (int k = 0; k < 4; ++k) {
     vec2 at = 0.47 * vec2(k % 2 == 0 ? -cap.stretch : cap.stretch, k < 2 ? -1.0 : 1.0);  // 2/3 from the middle, as the mean point is
     sum += lightThrough(cap, at, d, 0.9 * sqrt(abs(d.z)), 2);
   }
+#endif
   return encode(frame.brightness * 0.25 * sum);
 }
 

@@ -2,6 +2,9 @@
 #ifndef RG_OPTICS_DROP_LIGHT_GLSL
 #define RG_OPTICS_DROP_LIGHT_GLSL
 #include "optics/surroundings.glsl"
+#ifdef LAMPS
+#include "optics/lamps.glsl"
+#endif
 #include "shared/optics_drop.glsl"
 
 // Of the drop being looked at; set before.
@@ -9,16 +12,21 @@ mat3 world_from_drop = mat3(1.0);
 bool eye_outside = false;
 vec3 cabin = vec3(0.0);  // what an eye outside sees close behind the glass
 
-// Light that arrives from where a ray leaves to, drop's frame.
-vec3 arriving(vec3 direction, float spread_rad) {
+// Light that arrives from where a ray leaves to, drop's frame. Spreads: what neighbouring pixels see, across the plane of incidence and in it.
+vec3 arriving(vec3 direction, float spread_rad, float spread_in_plane_rad) {
   vec3 light = surroundingsOfGlass(world_from_drop * direction, world_from_drop[2], spread_rad);
+#ifdef LAMPS
+  light += behindGlassShare(world_from_drop * direction, world_from_drop[2]) *
+           lampsTowards(world_from_drop * direction, max(abs(spread_rad), abs(spread_in_plane_rad)));
+#endif
   return eye_outside && direction.z < 0.0 ? cabin : light;
 }
 
 // Follows a ray that has entered. At each face a share leaves by Fresnel, the rest stays. A pixel's bundle of rays is `footprint` wide and
 // widens by `spread` rad for each radius of path; both are followed across the plane of incidence (d' = n d - (n cos i - cos t) N, N' = x / R),
-// where a bundle spreads least, so that pictures in drops stay sharp.
-vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread, int reflections) {
+// where a bundle spreads least, so that pictures in drops stay sharp. Lamps want the widest: `in_plane` holds width and spread in that plane,
+// as if it were the same at each face (d' cos t = n d cos i - (n cos i - cos t) N, N' = x / (R cos i): Coddington's equations).
+vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread, vec2 in_plane, int reflections) {
   vec3 sum = vec3(0.0);
   float staying = 1.0;
   for (int k = 0; k <= reflections; ++k) {
@@ -28,19 +36,24 @@ vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread, int ref
     float reflected = fresnel(cosine, 1.0 / kWaterIndex);
     float leaving = staying * (1.0 - reflected);
     float across = footprint + spread * hit.path;  // of the ray bundle at this face
+    in_plane.x += in_plane.y * hit.path;
+    float turned = curvature * in_plane.x / max(cosine, 0.1);
     if (leaving > 0.004) {
       vec3 out_direction = refract(d, -hit.normal, kWaterIndex);
-      float bend = (kWaterIndex * cosine - dot(out_direction, hit.normal)) * curvature * across;
-      sum += leaving * arriving(out_direction, abs(kWaterIndex * spread - bend));
+      float out_cosine = dot(out_direction, hit.normal);
+      float bend = (kWaterIndex * cosine - out_cosine) * curvature * across;
+      float wide = (kWaterIndex * cosine * in_plane.y - (kWaterIndex * cosine - out_cosine) * turned) / max(out_cosine, 0.1);
+      sum += leaving * arriving(out_direction, abs(kWaterIndex * spread - bend), wide);
     }
     staying *= reflected;
     if (staying < 0.01) break;
     spread = spread - 2.0 * curvature * across * cosine;
+    in_plane.y -= 2.0 * turned;
     footprint = across;
     d = reflect(d, hit.normal);
     p = hit.position;
   }
-  return sum + staying * arriving(d, 1.0);  // what is still inside leaves by many ways: the surroundings' mean about its direction
+  return sum + staying * arriving(d, 1.0, 1.0);  // what is still inside leaves by many ways: the surroundings' mean about its direction
 }
 
 // Light that comes along the view ray through a place on the glass, out of the drop. `footprint`: width of the pixel's rays there.
@@ -63,9 +76,11 @@ vec3 lightThrough(Cap cap, vec2 place, vec3 d, float footprint, int reflections)
   float reflected = fresnel(cosine, kWaterIndex);
   float curvature = on_cap ? 1.0 / cap.radius : 0.0;
   vec3 light = vec3(0.0);
-  if (reflected > 0.004) light = reflected * arriving(reflect(d, normal), 2.0 * curvature * footprint * cosine);
+  if (reflected > 0.004) light = reflected * arriving(reflect(d, normal), 2.0 * curvature * footprint * cosine, 2.0 * curvature * footprint / cosine);
   vec3 inner = refract(d, normal, 1.0 / kWaterIndex);
-  float spread = curvature * footprint * (cosine / kWaterIndex + dot(inner, normal));
-  return light + (1.0 - reflected) * traceInside(cap, p, inner, footprint, spread, reflections);
+  float inner_cosine = -dot(inner, normal);
+  float spread = curvature * footprint * (cosine / kWaterIndex - inner_cosine);
+  vec2 in_plane = vec2(footprint * inner_cosine, spread / inner_cosine) / cosine;
+  return light + (1.0 - reflected) * traceInside(cap, p, inner, footprint, spread, in_plane, reflections);
 }
 #endif

@@ -43,10 +43,13 @@ vec3 surroundings(vec3 direction_world, float spread_rad) {
 #endif
 }
 
-// As surroundings, but light from the cabin's side of the glass is as much darker as the cabin is. The cabin begins behind the glass's plane.
+// Light from the cabin's side of the glass is as much darker as the cabin is. The cabin begins behind the glass's plane.
+float behindGlassShare(vec3 direction_world, vec3 outward) {
+  return mix(frame.cabin_share, 1.0, smoothstep(-0.02, 0.02, dot(direction_world, outward)));
+}
+
 vec3 surroundingsOfGlass(vec3 direction_world, vec3 outward, float spread_rad) {
-  float share = mix(frame.cabin_share, 1.0, smoothstep(-0.02, 0.02, dot(direction_world, outward)));
-  return share * surroundings(direction_world, spread_rad);
+  return behindGlassShare(direction_world, outward) * surroundings(direction_world, spread_rad);
 }
 
 #endif

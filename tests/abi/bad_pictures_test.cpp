@@ -110,6 +110,8 @@ TEST_F(BadPictures, lightThatIsNoLight) {
   rg_lamp lamp{};
   expectLightRefused("a huge count of lamps", "rg_lighting.lamps",
                      [&](rg_lighting& l) { l.lamps = &lamp, l.lamp_count = 0xFFFFFFFF; });
+  expectLightRefused("more lamps on the glass than there are", "rg_lighting.lamps_on_glass",
+                     [&](rg_lighting& l) { l.lamps = &lamp, l.lamp_count = 1, l.lamps_on_glass = 2; });
   const auto lampRefused = [&](const std::string& field, const std::function<void(rg_lamp&)>& spoil) {
     rg_lamp bad{};
     spoil(bad);

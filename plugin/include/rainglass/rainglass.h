@@ -354,6 +354,15 @@ typedef struct rg_lighting {
   const rg_lamp* lamps;
   uint32_t environment_cube; /* GL_TEXTURE_CUBE_MAP of linear radiance with mips, world axes, or 0 */
   uint32_t reserved;
+  /* Since minor 3. */
+  uint32_t lamps_on_glass; /* so many of `lamps`, from the first, are shown by the drops on panes as the points
+                              of light they are, 0 (default) .. lamp_count; the 16 brightest at the eye count.
+                              Give small bright ones (headlights, brake lights), which a captured picture of a
+                              few hundred pixels would lose, and leave their glowing glass out of the captured
+                              scene and the environment. What of them lies in view is in your picture: film and
+                              unresolved droplets show it from there. Nothing hides a lamp: leave out those
+                              that something stands before */
+  uint32_t reserved_too;
 } rg_lighting;
 
 typedef struct rg_draw {

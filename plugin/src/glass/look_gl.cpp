@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/constants.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gl/objects.h"
 #include "gl/program.h"
 #include "glass/look_capture_gl.h"
+#include "glass/look_lamps_gl.h"
 #include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
 #include "glass/water.h"
@@ -29,6 +31,20 @@ const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
 const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"},
     kInsideEnvironment{"INSIDE", "ENVIRONMENT"};
 const std::array<std::string, 3> kInsideCoarseEnvironment{"INSIDE", "COARSE", "ENVIRONMENT"};
+const std::array<std::string, 2> kLampsEnvironment{"LAMPS", "ENVIRONMENT"};
+const std::array<std::string, 1> kLamps{"LAMPS"};
+
+// What places drops and what draws them.
+struct DropPrograms {
+  DropPrograms(const GladGLContext& gl, std::span<const std::string> defines)
+      : place(gl, {"glass/look_place.comp"}, defines),
+        draw(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}, defines) {}
+  void forget() {
+    place.forget();
+    draw.forget();
+  }
+  gl::Program place, draw;
+};
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -78,10 +94,7 @@ struct GlassLook::Parts {
         outside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
                          gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kEnvironment)},
         small_program(gl, {"glass/look_small.vert", "glass/look_small.frag"}),
-        place_programs{gl::Program(gl, {"glass/look_place.comp"}),
-                       gl::Program(gl, {"glass/look_place.comp"}, kEnvironment)},
-        drop_programs{gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}),
-                      gl::Program(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}, kEnvironment)},
+        drop_programs{DropPrograms(gl, {}), DropPrograms(gl, kEnvironment)},
         frame_block(gl, sizeof(FrameBlock)),
         mesh_layout(gl),
         no_layout(gl),
@@ -94,7 +107,8 @@ struct GlassLook::Parts {
         films(gl, false),
         bead_maps(gl, false),
         picture(gl),
-        capture(gl) {
+        capture(gl),
+        lamps(gl) {
     no_film.zero();
     mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
     mesh_layout.attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
@@ -112,6 +126,7 @@ struct GlassLook::Parts {
   void drawFilm(const LookPane& pane);
   void placeDrops(const LookPane& pane);
   void drawDrops(const LookPane& pane);
+  const DropPrograms& dropPrograms();
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
     return capture.cube() != 0 ? capture.cube() : light.environment_cube;
@@ -123,7 +138,8 @@ struct GlassLook::Parts {
   std::array<std::array<gl::Program, 2>, 2> inside_programs;
   std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
   gl::Program small_program;
-  std::array<gl::Program, 2> place_programs, drop_programs;
+  std::array<DropPrograms, 2> drop_programs;
+  std::array<std::optional<DropPrograms>, 2> lamp_drop_programs;  // likewise, made when lamps first shine
   gl::Buffer frame_block, seen_drops;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, stepped, mipped, exact;
@@ -132,9 +148,11 @@ struct GlassLook::Parts {
   Canvases films;                  // of look_film.frag
   Canvases bead_maps;              // of look_beads.frag
   size_t with_environment = 0, coarse = 0;
+  bool with_lamps = false;
   uint32_t film_seen = 0, beads_seen = 0;  // for the pane being drawn
   LookPicture picture;
   LookCapture capture;
+  LookLamps lamps;
 };
 
 void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, const LookTarget& target,
@@ -267,6 +285,17 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.Disable(GL_CULL_FACE);
 }
 
+// Without lamps drops are drawn as if there were no such thing, to the bit and as fast.
+const DropPrograms& GlassLook::Parts::dropPrograms() {
+  if (!with_lamps) return drop_programs[with_environment];
+  std::optional<DropPrograms>& made = lamp_drop_programs[with_environment];
+  if (!made && with_environment != 0)
+    made.emplace(gl, kLampsEnvironment);
+  else if (!made)
+    made.emplace(gl, kLamps);
+  return *made;
+}
+
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
   const size_t bytes = static_cast<size_t>(pane.drop_count) * kSeenDropBytes;
   if (seen_drops.bytes() < bytes) seen_drops = gl::Buffer(gl, bytes + bytes / 2, 0);
@@ -278,7 +307,7 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen_drops.name());
   gl.BindSampler(kPicture, mipped.name());
-  place_programs[with_environment].use();
+  dropPrograms().place.use();
   gl.DispatchCompute(static_cast<GLuint>(pane.drop_count + kPlaceGroup - 1) / kPlaceGroup, 1, 1);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -289,7 +318,7 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.BindVertexArray(no_layout.name());
   small_program.use();
   gl.DrawArrays(GL_TRIANGLES, 0, 3 * pane.drop_count);
-  drop_programs[with_environment].use();
+  dropPrograms().draw.use();
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
 }
 
@@ -298,8 +327,8 @@ void GlassLook::Parts::forget() {
   for (size_t k : {0u, 1u}) {
     for (gl::Program& program : inside_programs[k]) program.forget();
     outside_programs[k].forget();
-    place_programs[k].forget();
     drop_programs[k].forget();
+    if (lamp_drop_programs[k]) lamp_drop_programs[k]->forget();
   }
   frame_block.forget();
   seen_drops.forget();
@@ -312,6 +341,7 @@ void GlassLook::Parts::forget() {
   bead_maps.forget();
   picture.forget();
   capture.forget();
+  lamps.forget();
 }
 
 GlassLook::GlassLook(const GladGLContext& gl) : parts_(std::make_unique<Parts>(gl)) {}
@@ -320,6 +350,7 @@ GlassLook::~GlassLook() = default;
 void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target,
                           const LookLight& light) {
   Parts& p = *parts_;
+  p.with_lamps = p.lamps.put(light.lamps, glm::dvec3(glm::inverse(view.eyeFromWorld)[3]));
   std::vector<SeenPane> drawn;  // since the picture was fetched
   for (const SeenPane& seen : seenPanes(panes, view)) {
     const LookPane& pane = *seen.pane;
@@ -327,7 +358,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     const bool stale =
         std::any_of(drawn.begin(), drawn.end(), [&](const SeenPane& far) { return liesBehind(far, seen); });
     if (drawn.empty() || stale) {
-      p.picture.fetch(view.viewport_px, target);
+      p.picture.fetch(view.viewport_px, target, p.with_lamps);
       drawn.clear();
     }
     drawn.push_back(seen);

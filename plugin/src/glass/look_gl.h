@@ -38,6 +38,16 @@ struct LookTarget {
                                // glass (a wiper's arm) are not told from those far away
 };
 
+// A lamp that shines from a point, brightest within a cone of cos_inner about its direction and dark beyond
+// cos_outer; cos_outer -1: to all sides alike.
+struct LookLamp {
+  glm::dvec3 position_m{0.0};  // world
+  glm::vec3 direction{0.0f};
+  glm::vec3 intensity{0.0f};  // radiant, in the host's unit times m^2
+  float cos_inner = -1.0f;
+  float cos_outer = -1.0f;
+};
+
 // Light that water and glass show besides the visible picture. Radiance in the host's unit.
 struct LookLight {
   uint32_t environment_cube =
@@ -46,6 +56,7 @@ struct LookLight {
   glm::vec3 ground_radiance{0.0f};
   float cabin_share = 1.0f;  // how much of the environment's light comes from the side of the glass the cabin
                              // is on: 1 = no cabin there
+  std::vector<LookLamp> lamps;  // that the environment does not show; the kMostLookLamps brightest count
 };
 
 // A blade that pushes a ridge of water over the pane, vehicle frame.

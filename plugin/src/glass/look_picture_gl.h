@@ -4,8 +4,10 @@
 
 #include <glm/glm.hpp>
 #include <list>
+#include <optional>
 
 #include "gl/objects.h"
+#include "gl/program.h"
 #include "glass/look_gl.h"
 
 namespace rg::glass {
@@ -33,17 +35,24 @@ class Canvases {
 
 class LookPicture {
  public:
-  explicit LookPicture(const GladGLContext& gl) : gl_(&gl), source_(gl), canvases_(gl, true) {}
+  explicit LookPicture(const GladGLContext& gl)
+      : gl_(&gl), source_(gl), canvases_(gl, true), level_(gl), no_layout_(gl) {}
 
-  // Copies what the viewport of the target shows, as it is there, with mips.
-  void fetch(const glm::ivec4& viewport_px, const LookTarget& target);
+  // Copies what the viewport of the target shows, as it is there, with mips. `exact`: mips are means to the
+  // last pixel, for pictures in which single ones matter.
+  void fetch(const glm::ivec4& viewport_px, const LookTarget& target, bool exact = false);
   uint32_t texture() const { return texture_; }
   void forget();
 
  private:
+  void halveOddLevels(const gl::Texture2D& picture);
+
   const GladGLContext* gl_;
   gl::Framebuffer source_;  // reads the target's colour texture
   Canvases canvases_;
+  gl::Framebuffer level_;
+  gl::VertexArray no_layout_;
+  std::optional<gl::Program> halve_;  // made when first wanted
   uint32_t texture_ = 0;
 };
 
