@@ -195,10 +195,11 @@ TEST_F(LampsSeen, aLampInTheVisiblePictureIsNotShownTwice) {
   EXPECT_GT(light({5.0, 4.0, 8.0}), 0.0);
 }
 
-// Haze spreads a lamp's light and keeps it: a film beaded up into droplets over all of the picture.
+// Haze spreads a lamp's light and keeps it: beads too small to be seen one by one cover some of all the
+// picture.
 TEST_F(LampsSeen, hazeMakesAHaloOfAllTheLightItTakesFromTheLamp) {
-  FlatPane pane(gl, kSlope, 0.8, 64);
-  pane.putFilm([](double, double) { return 12e-6; });
+  FlatPane pane(gl, kSlope, 0.8, 256);
+  pane.putBeads([](double, double) { return 60; }, 0.4, glm::radians(25.0));
   const glm::ivec2 size_px(640, 360);
   Scene scene = dark(size_px, glm::radians(40.0));
   scene.light.lamps.push_back({{20.0, 0.0, 0.0}, glm::vec3(0.0f), glm::vec3(500.0f)});
