@@ -102,8 +102,10 @@ TEST(WashedPane, catchesWhatMeetsItBetweenBeginningAndEnd) {
   scene.expect(scene.api.wash(scene.instance, &wash));
   runTo(1.3);
   const double wide_ml = paneStats(scene).caught_ml - narrow_ml;
-  EXPECT_GT(wide_ml, 0.2);
-  EXPECT_LT(wide_ml, 2.5);
+  // The pane's part of the cone's solid angle: two rectangles that meet before the nozzle, 0.3 m off.
+  const double pane_sr = 2.0 * std::atan(0.2 * 0.4 / (0.3 * std::sqrt(0.2 * 0.2 + 0.4 * 0.4 + 0.3 * 0.3)));
+  const double cone_sr = 2.0 * 3.14159265358979 * (1.0 - std::cos(0.5 * wash.fan_rad));
+  EXPECT_NEAR(wide_ml / (5.0 * pane_sr / cone_sr), 1.0, 0.01);
   const rg_pane_stats s = paneStats(scene);
   EXPECT_NEAR(s.caught_ml, s.on_glass_ml + s.drained_ml + s.wiped_ml + s.blown_ml + s.evaporated_ml, 1e-9);
 }

@@ -137,7 +137,9 @@ TEST_F(Worn, onDryGlassABladeSmearsADropIntoAShortArc) {
     sweep(run, rad(60), rad(120));
     const std::vector<int32_t> film = run.pane.readFilm();
     const glass::Wiper geometry(blade(worn), run.sim->map(), 0, 3);
+    const glass::Wear wear(blade(worn).residual_film_m, blade(worn).blade_m, worn, 3);
     double farthest_rad = 0.0;
+    int beyond_residual = 0;
     for (int i = 0; i < run.sim->map().texelCount(); ++i) {
       if (!run.sim->map().inside(i) || run.thickness_m(film, i) < 0.5e-6) continue;
       const glass::Crossings c = geometry.crossingsAt(glm::dvec3(run.sim->map().texel(i).position_m));
@@ -146,7 +148,10 @@ TEST_F(Worn, onDryGlassABladeSmearsADropIntoAShortArc) {
       EXPECT_GT(at_rad, -0.03);                        // steps end some millimetres before it
       EXPECT_LT(std::abs(c.along_m[0]), 0.02);
       farthest_rad = std::max(farthest_rad, at_rad);
+      beyond_residual += run.thickness_m(film, i) > wear.residual_m(c.along_m[0]) + 0.5e-6 ? 1 : 0;
     }
+    // Rubber that drags leaves more than its edge alone would.
+    EXPECT_EQ(beyond_residual > 0, worn > 0.0);
     const glass::PaneStats s = run.stats();
     EXPECT_EQ(s.caught_pl, sumOf(s));
     EXPECT_EQ(s.drops, 0u);
