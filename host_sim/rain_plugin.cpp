@@ -158,6 +158,7 @@ void RainPlugin::addCar(const CarView& car) {
       info.texel_m *= 2.0;
       info.max_drops /= 4;
     }
+    if (wiped) info.demister = 1.0;
     panes_.push_back(p.name);
     check(api_->set_pane(instance_, static_cast<uint32_t>(panes_.size()), &info), "set_pane");
   }

@@ -175,6 +175,21 @@ void readWashes(Reader& top, Scenario& s) {
   }
 }
 
+void readDemister(Reader& top, Scenario& s) {
+  const toml::node* node = top.find("demister");
+  if (node == nullptr) return;
+  const auto share = [&](const toml::node& value) {
+    const auto number = value.value<double>();
+    if (!number || !(*number >= 0.0 && *number <= 1.0)) top.refuse("demister", "must be a share, 0 .. 1");
+    return *number;
+  };
+  if (!node->is_array()) {
+    s.demister = {{0.0, share(*node)}};
+    return;
+  }
+  for (const auto& [at, value] : top.pairs("demister", *node)) s.demister.emplace_back(at, share(*value));
+}
+
 void readParameters(Reader& top, Scenario& s) {
   const Reader section = top.section("plugin");
   if (section.table() == nullptr) return;
@@ -279,6 +294,7 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   readWipers(top, s);
   s.wiper_pause_s = top.number("wiper_pause_s", kIntermittentPause_s, 0.5, 60.0);
   readWashes(top, s);
+  readDemister(top, s);
   readParameters(top, s);
   top.finish();
   return s;

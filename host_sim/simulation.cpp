@@ -106,6 +106,7 @@ void Simulation::tick() {
       driver_.tick();
   }
   tickWipers();
+  tickDemister();
   const double rain_mm = weather().rain_mm_h / 3600.0 * kHostTickSeconds;
   water_on_road_mm_ =
       std::clamp(water_on_road_mm_ + rain_mm - kRoadDries_mm_per_s * kHostTickSeconds, 0.0, kMostOnRoad_mm);
@@ -151,6 +152,18 @@ void Simulation::tickWipers() {
                         knot.share * static_cast<double>(car_.wipers[i].sweep_rad)});
     }
   }
+}
+
+// Switched between two ticks, however updates lie: the plugin is brought to that time for it.
+void Simulation::tickDemister() {
+  double share = demister_;
+  for (const auto& [at_s, then] : scenario_.demister) {
+    if (timeS() >= at_s) share = then;
+  }
+  if (share == demister_) return;
+  demister_ = share;
+  plugin_.update(hostTickNs(tick_ - 1));
+  plugin_.setParameter("fog.demister", share);
 }
 
 void Simulation::wash() {

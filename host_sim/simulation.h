@@ -91,6 +91,7 @@ class Simulation {
  private:
   void tick();
   void tickWipers();
+  void tickDemister();
   void tell();
   Eye eyeOf(const CarState& car) const;
   rg_view viewOf(const CarState& car) const;
@@ -106,6 +107,7 @@ class Simulation {
   RainSensor sensor_;
   int64_t prewarm_ns_ = 0;
   int64_t tick_ = -1;  // of the plugin's clock; -1: not begun
+  double demister_ = 0.0;
   std::vector<rg_wiper_knot> knots_;
   double water_on_road_mm_ = 0.0;
   double log_luminance_ = 0.0,

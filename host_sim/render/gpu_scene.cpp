@@ -193,7 +193,7 @@ void GpuScene::measureGlows(const Scene& scene) {
       const float area_m2 = glm::length(normals[side]);  // what of it faces one way
       if (area_m2 <= 0.0F) continue;
       glows.push_back({static_cast<int>(meaning->role), middles[side] / areas[side], normals[side] / area_m2,
-                       sides[side].radiance_area * area_m2});
+                       sides[side].radiance_area * area_m2, area_m2});
     }
   }
 }

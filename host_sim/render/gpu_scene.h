@@ -64,6 +64,7 @@ struct GpuGlow {
   int role = -1;
   glm::vec3 position_m{0.0F}, normal{0.0F};  ///< host's frame of the scene
   glm::vec3 radiance_area{0.0F};             ///< intensity along the normal, 1000 cd
+  float area_m2 = 0.0F;                      ///< of it that faces one way
 };
 
 struct GpuGrid {

@@ -66,7 +66,7 @@ void Instance::addGlares(glm::dvec3 eye_m, std::vector<Glare>& glares) const {
     const glm::dvec3 normal(worldFromHost() * glm::dvec4(glow.normal, 0.0));
     const auto cosine = static_cast<float>(glm::dot(glm::normalize(eye_m - position_m), normal));
     if (cosine > 0.0F && intensity != glm::vec3(0.0F))
-      glares.push_back({position_m, cosine * intensity, 0.0F});
+      glares.push_back({position_m, cosine * intensity, std::sqrt(cosine * glow.area_m2 / 3.14159F), true});
   }
 }
 

@@ -141,7 +141,8 @@ Renderer::Self::What Renderer::Self::world() const {
 
 /// Stands a little before its lamp, so that the lamp's own mesh does not hide it.
 void Renderer::Self::paintGlares(const View& view, glm::ivec2 size_px) {
-  constexpr float kBefore_m = 0.15F;
+  constexpr float kBefore_m = 0.35F;
+  constexpr float kDrawnWell_px = 2.5F;  // radius
   const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_ONE, GL_ONE);
@@ -155,13 +156,16 @@ void Renderer::Self::paintGlares(const View& view, glm::ivec2 size_px) {
                            glm::vec2(static_cast<float>(view.projection[0][0]),
                                      static_cast<float>(view.projection[1][1])));
   for (const Glare& lamp : glares) {
-    if (lamp.radius_m <= 0.0F) continue;
     const glm::vec3 place(lamp.position_m - eye_m);
     const float distance_m = std::max(glm::length(place), 2.0F * kBefore_m);
+    const float radius_px =
+        lamp.radius_m / distance_m * 0.5F * static_cast<float>(size_px.y * view.projection[1][1]);
+    const float shown = lamp.mesh_glows ? glm::clamp(kDrawnWell_px - radius_px, 0.0F, 1.0F) : 1.0F;
+    if (shown <= 0.0F) continue;
     const float clear = std::exp(-static_cast<float>(extinction(sky)) * distance_m);
     const float area_m2 = 3.14159F * lamp.radius_m * lamp.radius_m;
     glare.set("u_place", glm::vec4(place * (1.0F - kBefore_m / distance_m), lamp.radius_m));
-    glare.set("u_radiance", lamp.intensity * (clear / area_m2));
+    glare.set("u_radiance", lamp.intensity * (shown * clear / area_m2));
     gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   gl.DepthMask(GL_TRUE);

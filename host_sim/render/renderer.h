@@ -79,7 +79,8 @@ struct LampNow {
 struct Glare {
   glm::dvec3 position_m{0.0};
   glm::vec3 intensity{0.0F};  ///< towards the eye, 1000 cd
-  float radius_m = 0.0F;      ///< 0: its mesh glows, no disc is drawn
+  float radius_m = 0.0F;
+  bool mesh_glows = false;  ///< a disc is drawn only where its mesh is too small to be drawn well
 };
 
 /// What light there is, as rg_lighting wants it.

@@ -103,6 +103,8 @@ rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
     checkRange(info.opening_m, 0.0, 10.0, "rg_pane_info.opening_m");
     if (info.opening_m != 0.0)
       refuse("rg_pane_info.opening_m: this build has no sliding windows", RG_ERROR_MISSING_FEATURE);
+    checkRange(info.demister, 0.0, 1.0, "rg_pane_info.demister");
+    pane.demister = info.demister;
     pane.positions_m = positions;
     pane.uvs = uvs;
     pane.indices = {info.indices, info.index_count};

@@ -24,6 +24,8 @@ inline constexpr size_t kFirstSize<rg_weather> = offsetof(rg_weather, hail_mm_h)
 template <>
 inline constexpr size_t kFirstSize<rg_wiper_info> = offsetof(rg_wiper_info, blade_turn);
 template <>
+inline constexpr size_t kFirstSize<rg_pane_info> = offsetof(rg_pane_info, demister);
+template <>
 inline constexpr size_t kFirstSize<rg_lighting> = offsetof(rg_lighting, lamps_on_glass);
 template <>
 inline constexpr size_t kFirstSize<rg_rain_stats> = offsetof(rg_rain_stats, snow_mm_h);

@@ -81,6 +81,8 @@ void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::Pan
   object.sim = std::move(sim);
   if (const auto before = panes_.find(id); before != panes_.end()) object.airflow = before->second.airflow;
   object.sim->setAirflow(object.airflow);
+  object.fog = std::make_shared<glass::Fog>(object.sim->map());
+  object.demister = info.demister;
   if (gl_) object.sim->attachFilm();
   std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });  // the glass is another
   panes_[id] = std::move(object);
@@ -220,6 +222,7 @@ void Frame::reset() {
   washes_.clear();
   for (auto& [id, p] : panes_) {
     p.sim->reset();
+    p.fog->reset();
     p.tick = 0;
     p.left_out_ticks = 0;
   }
@@ -299,7 +302,8 @@ uint64_t Frame::hash(bool with_glass) {
   finishGlass();
   for (auto& [id, p] : panes_) {
     const uint64_t film = gl_ ? gl_->filmHash(id) : 0;
-    for (const uint64_t part : {uint64_t{id}, p.sim->hash(), film})
+    const auto fog = static_cast<uint64_t>(p.fog->stats().condensed_pl + p.fog->stats().on_glass_pl);
+    for (const uint64_t part : {uint64_t{id}, p.sim->hash(), film + fog})
       h = (h ^ part) * UINT64_C(0x100000001b3);  // FNV-1a's prime
   }
   return h;

@@ -14,6 +14,7 @@
 #include "gl/timers.h"
 #include "glass/airflow.h"
 #include "glass/look_gl.h"
+#include "glass/fog.h"
 #include "glass/pane.h"
 #include "glass/pane_gl.h"
 #include "glass/washer.h"
@@ -32,6 +33,8 @@ struct PaneObject {
   uint32_t vehicle = 0;
   bool active = true;
   std::shared_ptr<glass::PaneSim> sim;
+  std::shared_ptr<glass::Fog> fog;
+  double demister = 0.0;
   std::array<float, glass::kRegions> wet_share{};
   glass::Airflow airflow;
   int64_t tick = 0;  // the pane's own count: it has no gaps where time was left out
@@ -130,6 +133,7 @@ class Frame {
   void tellSettings();
   void tickGlass(const Tick& tick);
   void tickWashes(uint32_t pane, const Tick& tick, glass::PaneTick& out);
+  void tickFog(PaneObject& pane, const glass::PaneTick& tick) const;
   void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick);
   PaneObject& pane(uint32_t id);
   void removeWipersOf(uint32_t pane);

@@ -127,9 +127,22 @@ void Frame::tickGlass(const Tick& tick) {
       t.wipers[t.wiper_count++] = {w.wiper, w.from_rad, w.extreme_rad, w.to_rad};
     }
     tickWashes(id, tick, t);
+    tickFog(p, t);
     p.sim->submit(t);
   }
   std::erase_if(washes_, [](const WashObject& wash) { return wash.given_pl == wash.volume_pl; });
+}
+
+// Vapour and warmth change slowly: ten steps a second. A cabin without vapour costs nothing.
+void Frame::tickFog(PaneObject& p, const glass::PaneTick& tick) const {
+  constexpr int64_t kTicks = 12;
+  const bool wanted = settings_.fog_cabin_humidity > 0.0 || !p.fog->empty();
+  if (!wanted || tick.index % kTicks != 0) return;
+  const glass::FogAir air{tick.temperature_c,           tick.humidity,
+                          glm::length(tick.air_mps),    settings_.fog_cabin_temperature_c,
+                          settings_.fog_cabin_humidity, settings_.fog_demister * p.demister,
+                          settings_.fog_demister_c};
+  p.fog->step(air, static_cast<double>(kTicks) / static_cast<double>(kTickHz));
 }
 
 // As much of each jet's water as its time has run: shares of the whole, so that all of it comes to the last

@@ -19,6 +19,10 @@ struct Settings {
   double glass_blur = 1.0;
   double glass_internal_reflections = 3.0;
   double glass_capture_px = 256.0;
+  double fog_cabin_temperature_c = 20.0;
+  double fog_cabin_humidity = 0.0;
+  double fog_demister = 0.0;
+  double fog_demister_c = 45.0;
   double wind_gust_share = 0.0;
   double wind_gust_time_s = 10.0;
   double wind_roughness_m = 0.0;
@@ -73,6 +77,17 @@ inline constexpr SettingInfo kSettings[] = {
      &Settings::glass_internal_reflections},
     {"glass.capture_px", "px", "glass", "side of a face of the captured surroundings", 32.0, 2048.0,
      &Settings::glass_capture_px},
+    {"fog.cabin_temperature_c", "deg C", "fog", "of the air in the cabin", -40.0, 60.0,
+     &Settings::fog_cabin_temperature_c},
+    {"fog.cabin_humidity", "1", "fog",
+     "of the air in the cabin, relative: panes fog inside where they are colder than its dew point; 0 = none "
+     "ever does",
+     0.0, 1.0, &Settings::fog_cabin_humidity},
+    {"fog.demister", "1", "fog",
+     "share of its full flow with which the demister blows up those panes that it reaches (rg_pane_info)",
+     0.0, 1.0, &Settings::fog_demister},
+    {"fog.demister_c", "deg C", "fog", "of the air it blows, which comes from outside", -40.0, 90.0,
+     &Settings::fog_demister_c},
     {"wind.gust_share", "1", "wind",
      "how gusty: standard deviation of the wind's speed by its mean (0.17 over open country at 10 m)", 0.0,
      0.5, &Settings::wind_gust_share},

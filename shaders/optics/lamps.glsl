@@ -1,15 +1,11 @@
 // Lamps as drops show them: so small and bright that a picture of the surroundings a few hundred pixels wide loses them. Only in the variant LAMPS.
 #ifndef RG_OPTICS_LAMPS_GLSL
 #define RG_OPTICS_LAMPS_GLSL
+#include "optics/look_lamp.glsl"
 #include "optics/surroundings.glsl"
 
-struct LookLamp {
-  vec4 place_inner;      // xyz: from the eye, world axes, m; w: cosine of the inner cone
-  vec4 direction_outer;  // xyz: where it shines; w: cosine of the outer cone, -1: to all sides
-  vec4 intensity;        // rgb: radiant intensity
-};
-layout(std140, binding = 1) uniform Lamps {
-  LookLamp lamps[16];  // kMostLookLamps of plugin/src/glass/look_lamps_gl.h
+layout(std430, binding = 4) readonly buffer Lamps {
+  LookLamp lamps[kMostLookLamps];
   int lamp_count;
 };
 

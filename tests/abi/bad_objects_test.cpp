@@ -146,6 +146,8 @@ TEST_F(BadObjects, panesThatAreNoPanes) {
   refused("more drops than can be", "max_drops", [](Pane& p) { p.info.max_drops = 0xFFFFFFFF; });
   refused(
       "an open window", "opening_m", [](Pane& p) { p.info.opening_m = 0.1; }, RG_ERROR_MISSING_FEATURE);
+  refused("more than all of the demister", "rg_pane_info.demister", [](Pane& p) { p.info.demister = 1.5; });
+  refused("a demister of no number", "rg_pane_info.demister", [](Pane& p) { p.info.demister = kNaN; });
   refused("a window open by no number", "opening_m", [](Pane& p) { p.info.opening_m = kNaN; });
   expectStructChecked<rg_pane_info>("rg_pane_info", *Pane(api).get(),
                                     {offsetof(rg_pane_info, advancing_deg),

@@ -260,6 +260,9 @@ typedef struct rg_pane_info {
   uint32_t max_drops;    /* 0 = no drops at all: the film alone; default 20000 */
   uint32_t film_enabled; /* default 1 */
   double opening_m;      /* how far a window has slid down; other than 0: missing feature in this build */
+  /* Since minor 3. */
+  double demister; /* how much of the demister's air blows up the inner side from the lower edge: 0 (default)
+                      none .. 1 a windscreen's share. See parameters fog.* */
 } rg_pane_info;
 
 typedef struct rg_wiper_info {
@@ -360,8 +363,8 @@ typedef struct rg_lighting {
                               Give small bright ones (headlights, brake lights), which a captured picture of a
                               few hundred pixels would lose, and leave their glowing glass out of the captured
                               scene and the environment. What of them lies in view is in your picture: film and
-                              unresolved droplets show it from there. Nothing hides a lamp: leave out those
-                              that something stands before */
+                              unresolved droplets show it from there. A lamp that something in the depth_texture
+                              stands before is hidden; of others leave out those that are */
   uint32_t reserved_too;
 } rg_lighting;
 

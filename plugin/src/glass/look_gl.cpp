@@ -12,6 +12,7 @@
 #include "gl/objects.h"
 #include "gl/program.h"
 #include "glass/look_capture_gl.h"
+#include "glass/look_fog_gl.h"
 #include "glass/look_lamps_gl.h"
 #include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
@@ -108,7 +109,8 @@ struct GlassLook::Parts {
         bead_maps(gl, false),
         picture(gl),
         capture(gl),
-        lamps(gl) {
+        lamps(gl),
+        fog(gl) {
     no_film.zero();
     mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
     mesh_layout.attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
@@ -126,6 +128,7 @@ struct GlassLook::Parts {
   void drawFilm(const LookPane& pane);
   void placeDrops(const LookPane& pane);
   void drawDrops(const LookPane& pane);
+  void drawFog(const LookPane& pane);
   const DropPrograms& dropPrograms();
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
@@ -153,6 +156,7 @@ struct GlassLook::Parts {
   LookPicture picture;
   LookCapture capture;
   LookLamps lamps;
+  FogPainter fog;
 };
 
 void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, const LookTarget& target,
@@ -322,6 +326,20 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
 }
 
+// Between the eye and the water, of which it shows no more than of the rest: over the picture with both.
+void GlassLook::Parts::drawFog(const LookPane& pane) {
+  gl.Disablei(GL_BLEND, 0);
+  fog.bind(pane.fog, with_environment, kFirst);
+  gl.BindSampler(kFirst, smooth.name());
+  mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
+  mesh_layout.bindIndices(pane.index_buffer);
+  gl.BindVertexArray(mesh_layout.name());
+  gl.Enable(GL_CULL_FACE);
+  gl.CullFace(GL_FRONT);
+  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  gl.Disable(GL_CULL_FACE);
+}
+
 void GlassLook::Parts::forget() {
   for (gl::Program* program : {&film_program, &beads_program, &small_program}) program->forget();
   for (size_t k : {0u, 1u}) {
@@ -342,6 +360,7 @@ void GlassLook::Parts::forget() {
   picture.forget();
   capture.forget();
   lamps.forget();
+  fog.forget();
 }
 
 GlassLook::GlassLook(const GladGLContext& gl) : parts_(std::make_unique<Parts>(gl)) {}
@@ -354,7 +373,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
   std::vector<SeenPane> drawn;  // since the picture was fetched
   for (const SeenPane& seen : seenPanes(panes, view)) {
     const LookPane& pane = *seen.pane;
-    if (!isWet(pane) && !settings.dry_reflection) continue;
+    if (!isWet(pane) && pane.fog.covered.empty() && !settings.dry_reflection) continue;
     const bool stale =
         std::any_of(drawn.begin(), drawn.end(), [&](const SeenPane& far) { return liesBehind(far, seen); });
     if (drawn.empty() || stale) {
@@ -367,10 +386,18 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     if (pane.beads != 0) p.composeBeads(pane);
     p.setState(view, target);
     p.bindLook(light, target);
+    if (p.with_lamps) p.lamps.hide();
     p.drawFilm(pane);
     if (pane.drop_count > 0) {
       p.placeDrops(pane);
       p.drawDrops(pane);
+    }
+    if (!pane.fog.covered.empty()) {
+      p.picture.fetch(view.viewport_px, target, p.with_lamps);
+      drawn = {seen};
+      p.setState(view, target);
+      p.bindLook(light, target);
+      p.drawFog(pane);
     }
   }
 }

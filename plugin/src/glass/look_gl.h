@@ -68,6 +68,12 @@ struct LookBlade {
   int32_t first_piece = 0;  // of `ridge_buffer`, of shared::kBladeSegments
 };
 
+// What a pane's fogged inside covers of it.
+struct LookFog {
+  std::vector<float> covered;  // 0 .. 1 by cell, rows of `cells` over the grid; empty: it is clear
+  glm::ivec2 cells{0};
+};
+
 // A pane as it is to be seen. GL names are borrowed for the call.
 struct LookPane {
   glm::dmat4 worldFromVehicle{1.0};
@@ -95,6 +101,7 @@ struct LookPane {
   std::vector<LookBlade> blades;  // at most shared::kMaxGlassWipers
   uint32_t ridge_buffer = 0;      // int32_t volume of each piece, in units of film_unit_m3
   float ridge_contact_rad = 0.7f;
+  LookFog fog;
   // Drops: shared::GlassDropRecord in an SSBO. A record of seed 0 has a perfectly round outline (placed
   // drops), others their own.
   uint32_t drop_buffer = 0;

@@ -8,7 +8,7 @@
 namespace rg::glass {
 namespace {
 
-// As in shaders/optics/lamps.glsl (std140).
+// As in shaders/optics/lamps.glsl (std430).
 struct LampsBlock {
   struct Lamp {
     glm::vec4 place_inner, direction_outer, intensity;
@@ -16,7 +16,7 @@ struct LampsBlock {
   int32_t count;
   int32_t unused[3];
 };
-static_assert(sizeof(LampsBlock) == 48 * kMostLookLamps + 16, "std140 lays it out so");
+static_assert(sizeof(LampsBlock) == 48 * kMostLookLamps + 16, "std430 lays it out so");
 
 struct AtEye {
   const LookLamp* lamp;
@@ -54,8 +54,20 @@ bool LookLamps::put(std::span<const LookLamp> lamps, const glm::dvec3& eye_world
                                   glm::vec4(lamp.direction, lamp.cos_outer), glm::vec4(lamp.intensity, 0.0f)};
   }
   block_.write(0, &block, sizeof block);
-  gl_->BindBufferBase(GL_UNIFORM_BUFFER, 1, block_.name());
+  gl_->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, block_.name());
   return true;
+}
+
+void LookLamps::hide() {
+  if (!hide_) hide_.emplace(*gl_, std::initializer_list<std::string_view>{"glass/look_lamps.comp"});
+  hide_->use();
+  gl_->DispatchCompute(1, 1, 1);
+  gl_->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void LookLamps::forget() {
+  block_.forget();
+  if (hide_) hide_->forget();
 }
 
 }  // namespace rg::glass

@@ -2,26 +2,31 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "gl/objects.h"
+#include "gl/program.h"
 #include "glass/look_gl.h"
 
 namespace rg::glass {
 
-inline constexpr int kMostLookLamps = 16;  // shaders/optics/lamps.glsl
+inline constexpr int kMostLookLamps = 16;  // shaders/optics/look_lamp.glsl
 
-// Uniform block 1 of the variants LAMPS.
+// Storage buffer 4 of the variants LAMPS.
 class LookLamps {
  public:
   explicit LookLamps(const GladGLContext& gl);
   // Binds the block. False when none shines at the eye: then it is not needed.
   bool put(std::span<const LookLamp> lamps, const glm::dvec3& eye_world_m);
-  void forget() { block_.forget(); }
+  // Puts those out that the target's depth says are hidden; the look's frame is bound.
+  void hide();
+  void forget();
 
  private:
   const GladGLContext* gl_;
   gl::Buffer block_;
+  std::optional<gl::Program> hide_;  // made when first wanted
 };
 
 }  // namespace rg::glass

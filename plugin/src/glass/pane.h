@@ -38,6 +38,7 @@ struct PaneInfo {
   double texel_m = 3e-3;
   uint32_t max_drops = 20000;  // 0: the film alone
   bool film_enabled = true;
+  double demister = 0.0;  // share of its air that blows up the inner side
 };
 
 struct WiperInfo {
