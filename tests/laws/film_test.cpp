@@ -153,9 +153,9 @@ TEST_F(FilmLaws, drainsAsJeffreysSaysAndTheBetterTheFinerTheGrid) {
 
 // Nusselt: steady under rain h = (3 mu R_eff x / (rho g sin a))^(1/3), so 3/4 L h(L) stands above each metre
 // of the lower edge: under an even supply, and under rain, whose drops make the film uneven: the flux is its
-// mean cube, so its mean is a little less.
+// mean cube, so its mean is less: 5 to 11 % here.
 TEST_F(FilmLaws, standsUnderRainByTheCubeRootLaw) {
-  constexpr double kEven = 0.015, kRain = 0.08;
+  constexpr double kEven = 0.015, kRainLeast = 0.85, kRainMost = 1.02;
   const double rain_mm_h = draws.between(60, 140);
   Rig rig(draws.number());
   rig.attach();
@@ -198,7 +198,8 @@ TEST_F(FilmLaws, standsUnderRainByTheCubeRootLaw) {
     std::printf("%.0f mm/h, %.0f deg, %.2f m: rain %.4f, evenly %.4f of the law\n", rain_mm_h,
                 plates[i].slope_rad * 180 / kPi, plates[i].height_m, under_rain[i] / rain_law_ml,
                 under_jets[i] / even_law_ml);
-    EXPECT_NEAR(under_rain[i] / rain_law_ml, 1.0, kRain) << rain_mm_h << " mm/h";
+    EXPECT_LT(under_rain[i] / rain_law_ml, kRainMost) << rain_mm_h << " mm/h";
+    EXPECT_GT(under_rain[i] / rain_law_ml, kRainLeast) << rain_mm_h << " mm/h";
     EXPECT_NEAR(under_jets[i] / even_law_ml, 1.0, kEven) << rain_mm_h << " mm/h, evenly";
     expectNothingLost(rig.stats(static_cast<uint32_t>(i + 1)));
   }

@@ -151,7 +151,6 @@ class Rig {
     if (tick_ < 0) {
       update(1);
       update(1);
-      begun_tick_ = tick_;
     }
     const int64_t until = tick_ + std::llround(seconds * 120.0);
     while (tick_ < until) update(std::min(ticks, until - tick_));
@@ -201,7 +200,7 @@ class Rig {
   void expect(rg_result got) const {
     if (got < 0) throw std::runtime_error(api.last_error(instance));
   }
-  double time_s() const { return static_cast<double>(tick_ - begun_tick_) / 120.0; }
+  double time_s() const { return static_cast<double>(tick_ - kBegunTick) / 120.0; }
   int64_t time_ns() const {
     return tick_ < 0 ? 0 : tick_ / 120 * 1'000'000'000 + tick_ % 120 * 1'000'000'000 / 120;
   }
@@ -261,7 +260,8 @@ class Rig {
   std::vector<rg_vehicle> vehicles_;
   std::vector<rg_wiper_knot> knots_;
   bool attached_ = false;
-  int64_t tick_ = -1, begun_tick_ = 0;
+  static constexpr int64_t kBegunTick = 1;
+  int64_t tick_ = -1;
 };
 
 // Water that is off the glass, mL.
