@@ -200,14 +200,20 @@ class Copy {
         program_(gl, {"copy.comp"}, {}, source),
         from_(gl, bytes(map)),
         to_(gl, bytes(map)),
-        from_strips_(gl) {
-    from_.zero();
-    to_.zero();
+        from_strips_(gl),
+        from_beads_(gl, bytes(map)),
+        to_beads_(gl, bytes(map)),
+        from_beads_strips_(gl) {
+    for (gl::Buffer* buffer : {&from_, &to_, &from_beads_, &to_beads_}) buffer->zero();
+    from_beads_strips_.show(GL_RGBA32I, shared::kStripSize * sizeof(int32_t), from_beads_, 0,
+                            from_beads_.bytes());
     from_strips_.show(GL_RGBA32I, shared::kStripSize * sizeof(int32_t), from_, 0, from_.bytes());
   }
   void run() {
     gl_.BindImageTexture(0, from_strips_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32I);
+    gl_.BindImageTexture(1, from_beads_strips_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32I);
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, to_.name());
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, to_beads_.name());
     program_.use();
     gl_.DispatchCompute(tiles_.x, tiles_.y, 1);
     gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -223,19 +229,26 @@ class Copy {
   static constexpr std::string_view kText = R"(#include "shared/glass_types.glsl"
 layout(local_size_x = 8) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer from;
+layout(rgba32i, binding = 1) readonly uniform iimageBuffer from_beads;
 layout(std430, binding = 3) writeonly buffer To { ivec4 to[]; };
+layout(std430, binding = 6) writeonly buffer ToBeads { ivec4 to_beads[]; };
 const int kStrips = kTileSize / kStripSize;
 void main() {
   int lane = int(gl_LocalInvocationIndex), up = lane < kStrips ? 1 : -1, across = int(gl_NumWorkGroups.x) * kStrips;
   int y = int(gl_WorkGroupID.y) * kTileSize + (up > 0 ? 0 : kTileSize - 1);
   int strip = y * across + int(gl_WorkGroupID.x) * kStrips + lane % kStrips;
-  for (int row = 0; row < kTileSize / 2; ++row, strip += up * across) to[strip] = imageLoad(from, strip);
+  for (int row = 0; row < kTileSize / 2; ++row, strip += up * across) {
+    to[strip] = imageLoad(from, strip);
+    to_beads[strip] = imageLoad(from_beads, strip);
+  }
 })";
   const GladGLContext& gl_;
   glm::uvec2 tiles_;
   gl::Program program_;
   gl::Buffer from_, to_;
   gl::BufferTexture from_strips_;
+  gl::Buffer from_beads_, to_beads_;
+  gl::BufferTexture from_beads_strips_;
 };
 
 void compare(const GladGLContext& gl, glm::ivec2 grid, int frames) {

@@ -15,6 +15,7 @@ struct TileState {
   int awake; // in the last step
   int film_low_pl, film_high; // of its last report
   uint beads_pl;
+  int dried_pl; // in its last turn to dry
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };
 

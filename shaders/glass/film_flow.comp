@@ -1,5 +1,5 @@
-// A film step: every texel gathers what its neighbours give and gives what they gather, dries, breaks up into beads or takes them in, and may offer
-// water to the drops. It reads the film in one buffer and writes it to another, so that all see it as it was; beads it changes where they are. The
+// A film step: every texel gathers what its neighbours give and gives what they gather, takes in beads that it flows over, and may offer water to
+// the drops. It reads the film in one buffer and writes it to another, so that all see it as it was; beads it changes where they are. The
 // law is in shared/glass_film.glsl.
 // A tile that is awake is a group: two invocations for four columns, from the tile's lower and upper edge to its middle. Software GL, too, reads
 // buffers as images fast, but as storage slowly, and runs through branches that nobody takes.
@@ -13,7 +13,7 @@ layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
 layout(std430, binding = 6) writeonly buffer Lying { uvec4 beads[]; };
 layout(std430, binding = 2) writeonly buffer Report { int tiles[]; }; // FilmTile
 layout(std430, binding = 4) readonly buffer Awake {
-  AwakeTiles awake[2];
+  AwakeTiles awake[2], drying[2];
   int listed[];
 };
 
@@ -60,7 +60,7 @@ void leavePane(int volume_pl, vec2 outward, inout FilmTile sums) {
   else sums.drained_pl += volume_pl;
 }
 
-Walk walk(ivec2 tile, bool dries) {
+Walk walk(ivec2 tile) {
   FilmStepInfo step = info;
   int lane = int(gl_LocalInvocationIndex), up = lane < kStrips ? 1 : -1, across = tilesAcross() * kStrips;
   int x = (tile.x * kStrips + lane % kStrips) * kStripSize, y = tile.y * kTileSize + (up > 0 ? 0 : kTileSize - 1);
@@ -114,17 +114,16 @@ Walk walk(ivec2 tile, bool dries) {
 
       vec4 m = between(columns[k].metric_low, columns[k].metric_high, fraction(y));
       int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_back[k]) - to_next;
-      FilmTexel now = settled(on ? volume : -1, beadsOf(beads_of[k]), uint(texel + k), glass[k], m, dries, step);
+      FilmTexel now = settled(on ? volume : -1, beadsOf(beads_of[k]), m, step);
       now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
-      seen.sums.evaporated_pl += now.dried_pl;
-      int offered = now.offered_pl;
+      int offered = now.gone_pl;
       // The greatest, and of those the first.
       bool better = offered > seen.sums.event_pl || (offered > 0 && offered == seen.sums.event_pl && texel + k < seen.sums.event_texel);
       seen.sums.event_texel = better ? texel + k : seen.sums.event_texel;
       seen.sums.event_pl = better ? offered : seen.sums.event_pl;
       if (better) seen.offering = now;
       // Asleep next time only if neighbours, too, have seen it lie still.
-      seen.stirs |= int(offered > 0 || max(me[k].h_m, thickness_m(now.film_pl, m)) >= step.pin_m);
+      seen.stirs |= now.stirs | int(me[k].h_m >= step.pin_m);
       uint whole = uint(max(now.film_pl, 0));
       seen.sums.film_low_pl += whole & 0xffffu;
       seen.sums.film_high += whole >> 16u;
@@ -171,7 +170,7 @@ void report(int t, Walk seen) {
   int film_high = int(seen.sums.film_high) + (left.film_pl >> 16) - (had.film_pl >> 16);
   int beads_pl = int(seen.sums.beads_pl) + left.beads.volume_pl - had.beads.volume_pl;
   int part[kWalks] = int[kWalks](gives ? first_texel + 1 : 0, gives ? seen.sums.event_pl : 0, film_low_pl, film_high,
-                                 seen.sums.drained_pl, seen.sums.blown_pl, seen.sums.evaporated_pl, beads_pl);
+                                 seen.sums.drained_pl, seen.sums.blown_pl, lane == 0 && driesNow(uint(t), info) ? states[t].dried_pl : 0, beads_pl);
   for (int field = 0; field < kWalks; ++field) parts[lane * kWalks + field] = part[field];
   atomicOr(stirring, seen.stirs);
   barrier();
@@ -194,5 +193,5 @@ void main() {
     stirring = 0;
   }
   barrier();
-  report(t, walk(ivec2(t % tilesAcross(), t / tilesAcross()), driesNow(uint(t), info)));
+  report(t, walk(ivec2(t % tilesAcross(), t / tilesAcross())));
 }

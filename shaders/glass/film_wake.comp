@@ -1,27 +1,33 @@
-// Which tiles a step looks at, as a list; the others report what they did. An invocation for each tile.
+// Which tiles a step looks at, and which are to dry, as lists; the others report what they did. An invocation for each tile.
 #include "glass/film_buffers.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) writeonly buffer Report { FilmTile tiles[]; };
 layout(std430, binding = 4) buffer Awake {
-  AwakeTiles awake[2]; // this step's, and the next's made ready
-  int listed[];
+  AwakeTiles awake[2], drying[2]; // this step's, and the next's made ready
+  int listed[];                   // those awake, and from `count` on those that dry
 };
 
 bool stirs(ivec2 tile) { return states[tile.y * tilesAcross() + tile.x].stirs != 0; }
 
 bool wakes(int t) {
   ivec2 tile = ivec2(t % tilesAcross(), t / tilesAcross()), last = ivec2(tilesAcross(), count / tilesAcross()) - 1;
-  bool dries = driesNow(uint(t), info) && (uint(states[t].film_low_pl | states[t].film_high) | states[t].beads_pl) != 0u;
-  return dries || stirs(tile) || stirs(ivec2(max(tile.x - 1, 0), tile.y)) || stirs(ivec2(min(tile.x + 1, last.x), tile.y)) ||
+  return stirs(tile) || stirs(ivec2(max(tile.x - 1, 0), tile.y)) || stirs(ivec2(min(tile.x + 1, last.x), tile.y)) ||
          stirs(ivec2(tile.x, max(tile.y - 1, 0))) || stirs(ivec2(tile.x, min(tile.y + 1, last.y)));
 }
 
 void main() {
   int t = int(gl_GlobalInvocationID.x);
-  if (t == 0) awake[1 - turn] = AwakeTiles(0u, 1u, 1u, 0u);
+  if (t == 0) awake[1 - turn] = drying[1 - turn] = AwakeTiles(0u, 1u, 1u, 0u);
   if (t >= count) return;
   bool now = wakes(t), looked_at = now || states[t].awake != 0;
   states[t].awake = int(now);
+  // Of what came to it in this step its state does not know yet.
+  if (driesNow(uint(t), info) && (looked_at || (uint(states[t].film_low_pl | states[t].film_high) | states[t].beads_pl) != 0u)) {
+    uint place = atomicAdd(drying[turn].number, 1u);
+    listed[uint(count) + place] = t;
+    atomicMax(drying[turn].groups_x, min(place + 1u, kTilesInRow));
+    atomicMax(drying[turn].groups_y, place / kTilesInRow + 1u);
+  }
   if (looked_at) {
     uint place = atomicAdd(awake[turn].number, 1u);
     listed[place] = t;

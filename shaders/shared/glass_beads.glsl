@@ -27,7 +27,8 @@ RG_FN uint packedBeads(RG_IN(Beads) beads) { return uint(beads.volume_pl) | (uin
 // Share of the glass that beads cover before they touch and run together: with more there is no room between (rain on a pane, by eye; drops of
 // one size that lie anywhere jam at 0.55).
 RG_CONST float kCrowded = 0.4f;
-RG_CONST float kFlooded = 0.9f;  // a lone bead as wide as its texel is a film there
+// A lone bead as wide as its texel, on 0.9 of its area, is a film there: in terms of beadsCovering, (kCrowded / 0.9)^3.
+RG_CONST float kFlooded = 0.088f;
 
 // Cube root by steps that CPU and GPU do alike, without division: x times the square of x^(-1/3), which is a guess by the exponent (3 %) and three of
 // Newton's steps.

@@ -136,54 +136,65 @@ RG_FN int driedOfBeads_pl(RG_IN(Beads) beads, uint texel, RG_IN(FilmStepInfo) in
 struct FilmTexel {
   int film_pl; // -1: off the pane
   Beads beads;
-  int dried_pl;
-  int offered_pl; // to the drops, of the beads where there are any
+  int gone_pl; // evaporated, or offered to the drops: of the beads where there are any
+  int stirs;   // 1: not to fall asleep
 };
 
 RG_CONST float kWhole_m = 0.5e-6f; // a thinner film dries before it breaks (unsourced)
 
-// Whether a film breaks up in this turn to dry. Glass of its own chance each time.
-RG_FN bool breaksUp(float h_m, uint glass, RG_IN(FilmStepInfo) info) {
-  return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(glass + info.step)) < info.rupture_chance;
+// Whether a film breaks up in its turn to dry: as the glass there is, and by chance each time.
+RG_FN bool breaksUp(float h_m, uint texel, RG_IN(FilmStepInfo) info) {
+  return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(glassAt(texel, info) + info.step)) < info.rupture_chance;
 }
 
-RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, uint texel, uint glass, RG_IN(vec4) metric, bool dries, RG_IN(FilmStepInfo) info) {
+// A turn to dry.
+RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmTexel t;
   t.film_pl = film_pl;
   t.beads = lying;
-  t.dried_pl = 0;
-  t.offered_pl = 0;
+  t.gone_pl = 0;
+  t.stirs = 0;
   if (film_pl < 0) return t;
-  // A film that flows takes the beads along.
-  if (thickness_m(t.film_pl, metric) >= info.pin_m) {
-    t.film_pl += t.beads.volume_pl;
-    t.beads = noBeads();
+  int film_dried_pl = evaporated_pl(film_pl, texel, metric, info);
+  int beads_dried_pl = driedOfBeads_pl(lying, texel, info);
+  t.film_pl -= film_dried_pl;
+  t.beads.volume_pl -= beads_dried_pl;
+  if (t.beads.volume_pl == 0) t.beads.number = 0;
+  t.gone_pl = film_dried_pl + beads_dried_pl;
+  float h_m = thickness_m(t.film_pl, metric);
+  int surplus_pl = 0;
+  Beads more = joinedBy(t.beads, t.film_pl, beadsOfBrokenFilm(h_m, metric.z), surplus_pl);
+  float room = beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
+  // Not where they would be too large at once: what dries is left as settled() leaves it, and may sleep on.
+  if (breaksUp(h_m, texel, info) && room >= 1.0f) {
+    t.film_pl = surplus_pl;
+    t.beads.volume_pl = more.volume_pl;
+    t.beads.number = int(min(float(more.number), room));
   }
-  if (dries) {
-    int film_dried_pl = evaporated_pl(t.film_pl, texel, metric, info);
-    int beads_dried_pl = driedOfBeads_pl(t.beads, texel, info);
-    t.film_pl -= film_dried_pl;
-    t.beads.volume_pl -= beads_dried_pl;
-    if (t.beads.volume_pl == 0) t.beads.number = 0;
-    t.dried_pl = film_dried_pl + beads_dried_pl;
-    float h_m = thickness_m(t.film_pl, metric);
-    if (breaksUp(h_m, glass, info)) {
-      int broken_pl = t.film_pl;
-      t.film_pl = 0;
-      t.beads = joinedBy(t.beads, broken_pl, beadsOfBrokenFilm(h_m, metric.z), t.film_pl);
-    }
-  }
+  return t;
+}
+
+// After water has flowed.
+RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+  FilmTexel t;
+  t.film_pl = film_pl;
+  t.beads = lying;
+  t.gone_pl = 0;
+  t.stirs = 0;
+  if (film_pl < 0) return t;
   // Where they are crowded neighbours run together, until there are as many as have room.
-  float room = beadsCovering(t.beads.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
-  if (room < float(t.beads.number)) t.beads.number = max(1, int(room));
-  if (t.beads.number == 1 && beadsCovering(t.beads.volume_pl, kFlooded, info.bead_mm3_per_pl, metric.z) < 1.0f) {
+  float room = beadsCovering(lying.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
+  if (room < float(lying.number)) t.beads.number = max(1, int(room));
+  bool alone = t.beads.number == 1 && room < 1.0f;
+  // A film that flows takes them along; a lone one as wide as its texel is a film.
+  if (thickness_m(film_pl, metric) >= info.pin_m || (alone && room < kFlooded)) {
     t.film_pl += t.beads.volume_pl;
     t.beads = noBeads();
   }
-  if (info.drops_allowed == 0) return t;
   int too_much_pl = t.film_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
-  bool overfull = thickness_m(t.film_pl, metric) > kOverfull_m, alone = t.beads.number == 1 && room < 1.0f;
-  t.offered_pl = overfull ? too_much_pl : alone ? t.beads.volume_pl : 0;
+  bool overfull = thickness_m(t.film_pl, metric) > kOverfull_m, too_large = alone && t.beads.number > 0;
+  t.stirs = int(too_large || thickness_m(t.film_pl, metric) >= info.pin_m);
+  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? too_much_pl : too_large ? t.beads.volume_pl : 0;
   return t;
 }
 // ... and after its tile's offer has gone to the drops.

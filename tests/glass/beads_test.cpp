@@ -85,26 +85,28 @@ TEST(Beads, everyStepKeepsTheVolume) {
     Beads lying = beads(upTo(h.y, 1e7), 1 + static_cast<int>(h.z % 64));
     if (lying.volume_pl == 0) lying.number = 0;
     const int64_t before = int64_t{film_pl} + lying.volume_pl;
-    const bool dries = h.z >> 31u != 0;
-    const shared::FilmTexel t =
-        shared::settled(film_pl, lying, i, shared::glassAt(i, info), kTexel, dries, info);
-    ASSERT_EQ(int64_t{t.film_pl} + t.beads.volume_pl + t.dried_pl, before);
+    const shared::FilmTexel dry = shared::dried(film_pl, lying, i, kTexel, info);
+    ASSERT_EQ(int64_t{dry.film_pl} + dry.beads.volume_pl + dry.gone_pl, before);
+    ASSERT_GE(dry.film_pl, 0);
+    ASSERT_EQ(dry.beads.number > 0, dry.beads.volume_pl > 0);
+    const shared::FilmTexel t = shared::settled(dry.film_pl, dry.beads, kTexel, info);
+    ASSERT_EQ(int64_t{t.film_pl} + t.beads.volume_pl + dry.gone_pl, before);
     ASSERT_GE(t.film_pl, 0);
     ASSERT_EQ(t.beads.number > 0, t.beads.volume_pl > 0);
     ASSERT_LE(t.beads.number, shared::kMostBeads);
-    const shared::FilmTexel left = shared::without(t, t.offered_pl);
+    const shared::FilmTexel left = shared::without(t, t.gone_pl);
     ASSERT_EQ(int64_t{left.film_pl} + left.beads.volume_pl,
-              int64_t{t.film_pl} + t.beads.volume_pl - t.offered_pl);
+              int64_t{t.film_pl} + t.beads.volume_pl - t.gone_pl);
     ASSERT_EQ(left.beads.number > 0, left.beads.volume_pl > 0);
     const int taken = shared::shareOf(t.beads.volume_pl, static_cast<int>(h.x % 65537));
     const Beads rest = shared::withoutPart(t.beads, taken);
     ASSERT_EQ(rest.volume_pl, t.beads.volume_pl - taken);
     ASSERT_EQ(rest.number > 0, rest.volume_pl > 0);
     ASSERT_LE(rest.number, t.beads.number);
-    offered += t.offered_pl > 0 ? 1 : 0;
+    offered += t.gone_pl > 0 ? 1 : 0;
     joined += t.film_pl > film_pl ? 1 : 0;
-    broken += t.film_pl == 0 && film_pl > 0 && t.beads.number > 0 ? 1 : 0;
-    merged += t.beads.number > 0 && t.beads.number < lying.number ? 1 : 0;
+    broken += dry.film_pl == 0 && film_pl > 1000 && dry.beads.number > 0 ? 1 : 0;
+    merged += t.beads.number > 0 && t.beads.number < dry.beads.number ? 1 : 0;
     int more_pl = film_pl;
     const Beads both = shared::joinedBy(t.beads, 9'000'000, 3, more_pl);
     ASSERT_EQ(int64_t{both.volume_pl} + more_pl, int64_t{t.beads.volume_pl} + 9'000'000 + film_pl);
@@ -117,14 +119,14 @@ TEST(Beads, everyStepKeepsTheVolume) {
 TEST(Beads, crowdedOnesRunTogether) {
   const shared::FilmStepInfo info = uncoated();
   for (int volume_pl = 1000; volume_pl < 1'500'000; volume_pl += volume_pl / 3) {
-    const shared::FilmTexel t = shared::settled(0, beads(volume_pl, 64), 5, 7, kTexel, false, info);
+    const shared::FilmTexel t = shared::settled(0, beads(volume_pl, 64), kTexel, info);
     const double radius_m = std::cbrt(t.beads.volume_pl * 1e-9 * static_cast<double>(info.bead_mm3_per_pl) /
                                       std::max(t.beads.number, 1));
     const double share = t.beads.number * kPi * radius_m * radius_m / 9e-6;
-    if (t.offered_pl == 0)
+    if (t.gone_pl == 0)
       EXPECT_LE(share, static_cast<double>(shared::kCrowded) * 1.001) << volume_pl;
     else
-      EXPECT_EQ(t.offered_pl, volume_pl);
+      EXPECT_EQ(t.gone_pl, volume_pl);
     // One more would not have room.
     if (t.beads.number > 1 && t.beads.number < 64) {
       EXPECT_GT(share * std::cbrt(static_cast<double>(t.beads.number + 1) / t.beads.number),

@@ -98,6 +98,8 @@ class FilmReference {
   }
 
   void step(const glass::FilmOrder& order, glass::FilmReport& report) {
+    report.tiles.assign(map_.tileArea_m2().size(), shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
+    dry(order.info, report);
     std::vector<shared::FilmCell> cells(film.size());
     for (int i = 0; i < map_.texelCount(); ++i) {
       const int x = i % columns_, y = i / columns_;
@@ -106,7 +108,6 @@ class FilmReference {
                                                 : shared::FilmCell{at(i), 0.0f, 0, 0};
     }
     const int tiles_across = map_.tileCount().x;
-    report.tiles.assign(map_.tileArea_m2().size(), shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
     std::vector<shared::FilmTexel> settled(film.size());
     for (int i = 0; i < map_.texelCount(); ++i) {
       if (cells[static_cast<size_t>(i)].volume_pl < 0) continue;
@@ -114,16 +115,11 @@ class FilmReference {
       shared::FilmTile& tile =
           report.tiles[static_cast<size_t>(y / shared::kTileSize * tiles_across + x / shared::kTileSize)];
       const shared::vec4 metric = field(map_.nodeMetric(), x, y);
-      const auto texel = static_cast<uint32_t>(i);
-      const int volume = flowed(i, cells, order.info, tile);
-      const bool dries = shared::driesNow(static_cast<uint32_t>(&tile - report.tiles.data()), order.info);
       shared::FilmTexel& now = settled[static_cast<size_t>(i)];
-      now = shared::settled(volume, beadsAt(i), texel, shared::glassAt(texel, order.info), metric, dries,
-                            order.info);
-      tile.evaporated_pl += now.dried_pl;
+      now = shared::settled(flowed(i, cells, order.info, tile), beadsAt(i), metric, order.info);
       put(i, now);
-      if (now.offered_pl > tile.event_pl) {
-        tile.event_pl = now.offered_pl;
+      if (now.gone_pl > tile.event_pl) {
+        tile.event_pl = now.gone_pl;
         tile.event_texel = i;
       }
     }
@@ -137,6 +133,19 @@ class FilmReference {
       tile.film_low_pl += static_cast<uint32_t>(std::max(at(i), 0)) & 0xffffu;
       tile.film_high += static_cast<uint32_t>(std::max(at(i), 0)) >> 16u;
       tile.beads_pl += static_cast<uint32_t>(beadsAt(i).volume_pl);
+    }
+  }
+
+  void dry(const shared::FilmStepInfo& info, glass::FilmReport& report) {
+    for (int i = 0; i < map_.texelCount(); ++i) {
+      const int x = i % columns_, y = i / columns_;
+      const auto tile =
+          static_cast<size_t>(y / shared::kTileSize * map_.tileCount().x + x / shared::kTileSize);
+      if (!shared::driesNow(static_cast<uint32_t>(tile), info)) continue;
+      const shared::FilmTexel now =
+          shared::dried(at(i), beadsAt(i), static_cast<uint32_t>(i), field(map_.nodeMetric(), x, y), info);
+      report.tiles[tile].evaporated_pl += now.gone_pl;
+      put(i, now);
     }
   }
 

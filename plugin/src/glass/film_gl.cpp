@@ -10,8 +10,9 @@ namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 5 * sizeof(int32_t);                // TileState in film_buffers.glsl
-constexpr std::array<uint32_t, 8> kNoneAwake{0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns
+constexpr size_t kTileStateBytes = 6 * sizeof(int32_t);  // TileState in film_buffers.glsl
+constexpr std::array<uint32_t, 16> kNoneAwake{
+    0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns, and those that dry
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
 constexpr size_t kRidgeBytes = (kRidgePieces + 2) * sizeof(int32_t);  // and two parts of what is wiped off
 
@@ -60,6 +61,7 @@ FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky)
       sweep(gl, {"glass/film_sweep.comp"}, defines(leaky)),
       leave(gl, {"glass/film_leave.comp"}, defines(leaky)),
       wake(gl, {"glass/film_wake.comp"}),
+      dry(gl, {"glass/film_dry.comp"}),
       flow(gl, {"glass/film_flow.comp"}, defines(leaky)) {}
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
@@ -67,7 +69,7 @@ std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKern
 }
 
 void abandonFilmPrograms(FilmPrograms& p) {
-  for (gl::Program* program : {&p.change, &p.sweep, &p.leave, &p.wake, &p.flow}) program->forget();
+  for (gl::Program* program : {&p.change, &p.sweep, &p.leave, &p.wake, &p.dry, &p.flow}) program->forget();
 }
 
 FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map)
@@ -79,7 +81,7 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       beads_strips_(gl),
       ridges_(gl, kRidgeBytes),
       states_(gl, tiles_ * kTileStateBytes),
-      awake_(gl, sizeof kNoneAwake + tiles_ * sizeof(int32_t)),
+      awake_(gl, sizeof kNoneAwake + 2 * tiles_ * sizeof(int32_t)),
       metric_(gl, std::span<const shared::vec4>(map.nodeMetric())),
       metric_nodes_(gl),
       drive_nodes_(gl),
@@ -272,16 +274,23 @@ void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, s
   image(3, beads_strips_, GL_RGBA32UI);
   gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
                       static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, film_[1 - turn_].name());
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, awake_.name());
   dispatch(programs_->wake, tiles_);
-  programs_->flow.set(1, static_cast<int32_t>(turn_));
-  programs_->flow.use();
+  const auto dispatchListed = [&](const gl::Program& program, GLintptr command) {
+    program.set(1, static_cast<int32_t>(turn_));
+    program.use();
+    gl_.DispatchComputeIndirect(command);
+    gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                      GL_BUFFER_UPDATE_BARRIER_BIT);
+  };
   gl_.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
   gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, awake_.name());
-  gl_.DispatchComputeIndirect(static_cast<GLintptr>(turn_ * sizeof kNoneAwake / 2));
-  gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                    GL_BUFFER_UPDATE_BARRIER_BIT);
+  const auto awake_at = static_cast<GLintptr>(turn_ * sizeof kNoneAwake / 4);
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, film_[1 - turn_].name());
+  programs_->dry.set(0, static_cast<int32_t>(tiles_));
+  dispatchListed(programs_->dry, awake_at + static_cast<GLintptr>(sizeof kNoneAwake / 2));
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, film_[1 - turn_].name());
+  dispatchListed(programs_->flow, awake_at);
   turn_ = 1 - turn_;
   picture_is_old_ = beads_picture_is_old_ = true;
 }

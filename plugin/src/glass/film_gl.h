@@ -19,7 +19,7 @@ namespace rg::glass {
 class FilmPrograms {
  public:
   FilmPrograms(const GladGLContext& gl, FilmKernel leaky);
-  gl::Program change, sweep, leave, wake, flow;
+  gl::Program change, sweep, leave, wake, dry, flow;
 };
 
 class FilmGl {
