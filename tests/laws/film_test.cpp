@@ -153,9 +153,10 @@ TEST_F(FilmLaws, drainsAsJeffreysSaysAndTheBetterTheFinerTheGrid) {
 
 // Nusselt: steady under rain h = (3 mu R_eff x / (rho g sin a))^(1/3), so 3/4 L h(L) stands above each metre
 // of the lower edge: under an even supply, and under rain, whose drops make the film uneven: the flux is its
-// mean cube, so its mean is less: 5 to 11 % here.
+// mean cube, so its mean is less: by up to 11 % here.
 TEST_F(FilmLaws, standsUnderRainByTheCubeRootLaw) {
-  constexpr double kEven = 0.015, kRainLeast = 0.85, kRainMost = 1.02;
+  // First-order upwind lags by half a texel, of fifty at least; jets' chances do the rest.
+  constexpr double kEven = 0.02, kRainLeast = 0.85, kRainMost = 1.02;
   const double rain_mm_h = draws.between(60, 140);
   Rig rig(draws.number());
   rig.attach();
