@@ -35,8 +35,8 @@ glm::vec3 sunIrradiance(const Sky& sky);
 /// times by day (chosen by eye), as they are by night.
 float streetLampGain(const Sky& sky);
 
-/// How bright lit windows and signs are shown, relative to what is seen to glow by day: some 100 cd/m^2 by night
-/// (a room of 300 lx and bright walls), for the same reason.
+/// How bright lit windows and signs are shown, relative to what is seen to glow by day: some 100 cd/m^2 by
+/// night (a room of 300 lx and bright walls), for the same reason.
 float litWindowLevel(const Sky& sky);
 
 }  // namespace host

@@ -303,15 +303,15 @@ typedef struct rg_wash_info {
 typedef struct rg_airflow {
   uint32_t struct_size;
   uint32_t columns, rows; /* of `ahead`, 0 .. 256 each; 0 (default): there is none */
-  double stagnation;      /* of a pane that faces the wind: share of the speed missing at its lower edge, 0 .. 1;
-                             default 0.65 */
-  double outward;         /* and how much of the component against it turns to its sides there, 0 .. 2;
-                             default 0.35 */
-  double lee;             /* share of the speed behind a pane that faces away, 0 .. 1; default 0.25 */
-  double drag_friction;   /* C_f of the shear on a film, rho_air C_f U^2 / 2, 0 .. 0.1; default 0.004 */
-  const float* ahead;     /* velocity along the glass for air from dead ahead, vehicle frame, xyz each, -5 .. 5;
-                             row by row from the pane's lower edge, each from its left seen from inside; copied.
-                             Takes the place of the first two for that part of the air which comes from ahead */
+  double stagnation; /* of a pane that faces the wind: share of the speed missing at its lower edge, 0 .. 1;
+                        default 0.65 */
+  double outward;    /* and how much of the component against it turns to its sides there, 0 .. 2;
+                        default 0.35 */
+  double lee;        /* share of the speed behind a pane that faces away, 0 .. 1; default 0.25 */
+  double drag_friction; /* C_f of the shear on a film, rho_air C_f U^2 / 2, 0 .. 0.1; default 0.004 */
+  const float* ahead;   /* velocity along the glass for air from dead ahead, vehicle frame, xyz each, -5 .. 5;
+                           row by row from the pane's lower edge, each from its left seen from inside; copied.
+                           Takes the place of the first two for that part of the air which comes from ahead */
 } rg_airflow;
 
 /* ---- drawing ---- */
@@ -357,14 +357,13 @@ typedef struct rg_lighting {
   const rg_lamp* lamps;
   uint32_t environment_cube; /* GL_TEXTURE_CUBE_MAP of linear radiance with mips, world axes, or 0 */
   uint32_t reserved;
-  /* Since minor 3. */
-  uint32_t lamps_on_glass; /* so many of `lamps`, from the first, are shown by the drops on panes as the points
-                              of light they are, 0 (default) .. lamp_count; the 16 brightest at the eye count.
-                              Give small bright ones (headlights, brake lights), which a captured picture of a
-                              few hundred pixels would lose, and leave their glowing glass out of the captured
-                              scene and the environment. What of them lies in view is in your picture: film and
-                              unresolved droplets show it from there. A lamp that something in the depth_texture
-                              stands before is hidden; of others leave out those that are */
+  /* Since minor 3: so many of `lamps`, from the first, are shown by the drops on panes as the points of light
+   * they are, 0 (default) .. lamp_count; the 16 brightest at the eye count. Give small bright ones
+   * (headlights, brake lights), which a captured picture of a few hundred pixels would lose, and leave their
+   * glowing glass out of the captured scene and the environment. What of them lies in view is in your
+   * picture: film and unresolved droplets show it from there. A lamp that something in the depth_texture
+   * stands before is hidden; of others leave out those that are. */
+  uint32_t lamps_on_glass;
   uint32_t reserved_too;
 } rg_lighting;
 
@@ -588,8 +587,8 @@ typedef struct rg_api {
 
   /* From minor version 3 on. */
   void (*default_airflow)(rg_airflow* out); /* [thread: any] */
-  /* How air runs over a pane, from the next tick on; null: as by default. It stays when the pane is set again.
-   * [thread: as update] */
+  /* How air runs over a pane, from the next tick on; null: as by default. It stays when the pane is set
+   * again. [thread: as update] */
   rg_result (*set_airflow)(rg_instance* instance, uint32_t pane, const rg_airflow* airflow);
 } rg_api;
 
