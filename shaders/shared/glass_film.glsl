@@ -147,13 +147,18 @@ RG_FN bool breaksUp(float h_m, uint texel, RG_IN(FilmStepInfo) info) {
   return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(glassAt(texel, info) + info.step)) < info.rupture_chance;
 }
 
-// A turn to dry.
-RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+RG_FN FilmTexel asItIs(int film_pl, RG_IN(Beads) lying) {
   FilmTexel t;
   t.film_pl = film_pl;
   t.beads = lying;
   t.gone_pl = 0;
   t.stirs = 0;
+  return t;
+}
+
+// A turn to dry.
+RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+  FilmTexel t = asItIs(film_pl, lying);
   if (film_pl < 0) return t;
   int film_dried_pl = evaporated_pl(film_pl, texel, metric, info);
   int beads_dried_pl = driedOfBeads_pl(lying, texel, info);
@@ -176,11 +181,7 @@ RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) m
 
 // After water has flowed.
 RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
-  FilmTexel t;
-  t.film_pl = film_pl;
-  t.beads = lying;
-  t.gone_pl = 0;
-  t.stirs = 0;
+  FilmTexel t = asItIs(film_pl, lying);
   if (film_pl < 0) return t;
   // Where they are crowded neighbours run together, until there are as many as have room.
   float room = beadsCovering(lying.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);

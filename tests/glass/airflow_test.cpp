@@ -41,6 +41,24 @@ TEST(AirflowField, servesTheAirFromAheadAlone) {
              dvec3(-10.0, 5.0, 15.0) + glass::airOverGlass(map, node, wind));
 }
 
+TEST(ForceField, shearOnTheFilmGoesWithTheFrictionTold) {
+  const Mesh mesh = windscreen();
+  const glass::PaneMap map(paneInfo(mesh));
+  const auto shearWith = [&](double friction) {
+    glass::ForceField forces;
+    forces.make(map, {0.0, 0.0, -9.81}, {-20.0, 0.0, 0.0});  // told of while it is used
+    Airflow airflow;
+    airflow.shape.drag_friction = friction;
+    airflow.ahead = {1, 1, {{-0.866f, 0.0f, 0.5f}}};  // up the glass, as fast as the free air
+    forces.setAirflow(airflow);
+    forces.make(map, {0.0, 0.0, -9.81}, {-20.0, 0.0, 0.0});
+    const shared::vec4 drive = forces.filmDrive()[map.nodes().size() / 2];
+    return std::hypot(static_cast<double>(drive.z), static_cast<double>(drive.w));
+  };
+  EXPECT_NEAR(shearWith(0.004), 0.5 * 1.2 * 0.004 * 20.0 * 20.0, 1e-3);  // rho C_f U^2 / 2, Pa
+  EXPECT_NEAR(shearWith(0.008), 2.0 * shearWith(0.004), 1e-5);
+}
+
 TEST(AirflowShape, saysHowMuchSpeedIsMissingBelowAndBehind) {
   const Mesh mesh = windscreen(1.5, 0.8, rad(30.0));
   const glass::PaneMap map(paneInfo(mesh));

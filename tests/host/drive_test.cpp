@@ -188,13 +188,15 @@ TEST(Scenario, allThatAreShippedLoad) {
 }
 
 TEST(Scenario, changesFromTheCommandLineReachIt) {
-  const Scenario s = loadScenario("drive",
-                                  {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off",
-                                   "plugin.rain.gain=2", "white_cd_m2=5000", "shelter=false"},
-                                  RG_SOURCE_DIR);
+  const Scenario s =
+      loadScenario("drive",
+                   {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off",
+                    "plugin.rain.gain=2", "glass=new_coating", "white_cd_m2=5000", "shelter=false"},
+                   RG_SOURCE_DIR);
   EXPECT_EQ(s.rain_mm_h.at(0.0), 12.5);
   EXPECT_EQ(s.seconds, 3.0);
   EXPECT_EQ(s.camera, "outside");
+  EXPECT_EQ(s.glass, GlassSurface::NewCoating);
   EXPECT_EQ(s.white_cd_m2, 5000.0);
   EXPECT_FALSE(s.shelter);
   EXPECT_EQ(wiperModeAt(s, 30.0), WiperMode::off);

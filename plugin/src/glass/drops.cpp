@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numbers>
 #include <utility>
 
 #include "glass/random.h"
@@ -15,7 +16,7 @@ namespace {
 constexpr int64_t kLeastDrop_pl = 50;  // a hemisphere of 0.03 mm: dries in a blink
 constexpr int kAgeStride = 16;         // ticks from one look at what a drop loses to the next
 constexpr size_t kFragments = 8;       // of a drop that shatters (unsourced)
-// A thinner lamella breaks up before it can draw together: as thin as films break on uncoated glass.
+// A thinner lamella breaks up before it can draw together (unsourced).
 constexpr double kThinnestLamella_m = 20e-6;
 
 double weber(const Impact& impact) {

@@ -12,7 +12,8 @@ namespace {
 
 // EN 673 (2011), annex: radiation and still air at a window's inner side, W/(m^2 K).
 constexpr double kRadiation = 4.4, kStillAir = 3.6;
-// Heat that a square metre of a windscreen holds: 5 mm of glass of 2500 kg/m^3, 840 J/(kg K).
+// Heat that a square metre of a windscreen holds: 5 mm of glass of 2500 kg/m^3, 840 J/(kg K) (usual
+// handbook values).
 constexpr double kGlassHeat_J_m2K = 5e-3 * 2500.0 * 840.0;
 constexpr double kVaporisation_J_kg = 2.47e6;  // at 10 deg C
 // Chilton & Colburn (1934): heat and vapour go the same way, h_m = h / (rho c_p Le^(2/3)); of vapour in air
