@@ -219,7 +219,7 @@ void Drops::shatter(const DropWorld& world, const Impact& impact, int64_t volume
   int64_t left_pl = volume_pl;
   for (size_t i = 0; i < kFragments; ++i) {
     const auto rest_pl = static_cast<int64_t>(static_cast<double>(volume_pl) * (1.0 - upTo[i] / sum));
-    const int64_t fragment_pl = i + 1 == kFragments ? left_pl : left_pl - std::min(rest_pl, left_pl);
+    const int64_t fragment_pl = left_pl - std::min(rest_pl, left_pl);  // of the last: all, its rest is 0
     left_pl -= fragment_pl;
     h = shared::pcg(h + 1u);
     const double way_m = reach_m * std::sqrt(static_cast<double>(shared::unitFloat(h)));
