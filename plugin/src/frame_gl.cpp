@@ -62,6 +62,8 @@ glass::LookPane lookPane(const glass::PaneDrawn& d, const Pose& vehicle, int64_t
   if (d.bead_contact_rad > 0.0) p.bead_contact_rad = static_cast<float>(d.bead_contact_rad);
   p.drop_buffer = d.drop_buffer;
   p.drop_count = d.drop_count;
+  p.crater_buffer = d.crater_buffer;
+  p.crater_count = d.crater_count;
   const double age_s = static_cast<double>(time_ns - drops_ns) * 1e-9;
   p.drop_age_s = static_cast<float>(age_s);
   p.ridge_buffer = d.ridge_buffer;

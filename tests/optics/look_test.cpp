@@ -7,6 +7,7 @@
 #include "environment.h"
 #include "flat_pane.h"
 #include "gl_fixture.h"
+#include "shared/glass_crater.glsl"
 
 namespace rg::test {
 namespace {
@@ -110,6 +111,43 @@ TEST_F(Look, inAUniformWorldWaterIsInvisible) {
   scene.picture = paint(scene.size_px, [](int, int) { return glm::vec3(1.0f); });
   // Rays are given up when 1 % is left of them, and shares below 0.4 % are not looked up.
   EXPECT_LT(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.025f);
+}
+
+TEST_F(Look, aCraterBendsTheViewWhereThereIsFilmAndNowhereElse) {
+  FlatPane pane(gl, kRake, 0.8, 256);
+  Scene scene = inside({640, 360});
+  scene.picture = paint(scene.size_px, checks);
+  shared::CraterRecord crater{};
+  crater.position_m = glm::vec2(0.4f, 0.4f);
+  crater.width_m = 8e-3f;
+  crater.film_m = 150e-6f;
+  crater.levelling_m4_s = shared::craterLevelling_m4_s(crater.film_m);
+  const auto changed = [&](double film_m) {
+    pane.putFilm([&](double, double) { return film_m; });
+    pane.pane.crater_count = 0;
+    const Picture without = draw(gl, look, scene, {&pane.pane, 1});
+    const gl::Buffer buffer(gl, std::span<const shared::CraterRecord>(&crater, 1));
+    pane.pane.crater_buffer = buffer.name();
+    pane.pane.crater_count = 1;
+    const Picture with = draw(gl, look, scene, {&pane.pane, 1});
+    std::pair<int, int> near_far{0, 0};
+    for (int y = 0; y < with.height; ++y) {
+      for (int x = 0; x < with.width; ++x) {
+        if (glm::distance(with.at(x, y), without.at(x, y)) < 1e-3f) continue;
+        // The eye is 0.65 m before the pane's middle: so far across does the crater reach, 3.5 widths.
+        const double f_px = 0.5 * with.width * scene.view.clipFromEye[0][0];
+        const bool near = std::abs(x + 0.5 - 0.5 * with.width) < 1.1 * f_px * 3.5 * 8e-3 / 0.65;
+        ++(near ? near_far.first : near_far.second);
+      }
+    }
+    return near_far;
+  };
+  const auto [bent, beyond] = changed(150e-6);
+  EXPECT_GT(bent, 100);
+  EXPECT_EQ(beyond, 0);
+  EXPECT_EQ(changed(0.0).first, 0) << "a blade has taken the film";
+  crater.age_s = 1e5f;
+  EXPECT_EQ(changed(150e-6).first, 0) << "levelled long ago";
 }
 
 TEST_F(Look, everyDepthConventionShowsTheSame) {

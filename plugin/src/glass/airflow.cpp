@@ -90,12 +90,15 @@ Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {
           map.grid().texel_m};
 }
 
+glm::dvec2 ForceField::shear_pa(const glm::dvec2& air_mps) const {
+  return 0.5 * kRhoAir_kg_m3 * airflow_.shape.drag_friction * glm::length(air_mps) * air_mps;
+}
+
 std::vector<shared::vec4> ForceField::filmDrive() const {
-  const auto friction = static_cast<float>(0.5 * kRhoAir_kg_m3 * airflow_.shape.drag_friction);
   std::vector<shared::vec4> out;
   out.reserve(nodes_.size());
   for (const NodePush& node : nodes_) {
-    const glm::vec2 shear = friction * glm::length(node.air) * node.air;
+    const glm::vec2 shear(shear_pa(glm::dvec2(node.air)));
     out.emplace_back(node.acceleration.x, node.acceleration.y, shear.x, shear.y);
   }
   return out;

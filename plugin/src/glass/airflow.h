@@ -48,6 +48,8 @@ class ForceField {
   void setAirflow(Airflow airflow);  // of the next make()
   void clear() { nodes_.clear(); }   // the airflow stays
   Push at(const PaneMap& map, glm::dvec2 grid_m) const;
+  // What air of this velocity just above it does to water's surface: tau = rho_a C_f U^2 / 2 along it.
+  glm::dvec2 shear_pa(const glm::dvec2& air_mps) const;
   // Per node, for the film: xy acceleration, zw shear stress.
   std::vector<shared::vec4> filmDrive() const;
   bool empty() const { return nodes_.empty(); }

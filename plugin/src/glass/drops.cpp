@@ -19,12 +19,7 @@ constexpr size_t kFragments = 8;       // of a drop that shatters (unsourced)
 // A thinner lamella breaks up before it can draw together (unsourced).
 constexpr double kThinnestLamella_m = 20e-6;
 
-double weber(const Impact& impact) {
-  return kRho_kg_m3 * impact.speed_mps * impact.speed_mps * impact.diameter_m / kGamma_n_m;
-}
-
-// A drop spreads over D We^(1/4) (Clanet, Beguin, Richard & Quere 2004), so the lamella is 2/3 D We^(-1/2)
-// thick.
+// The lamella is 2/3 D We^(-1/2) thick.
 bool shatters(const Impact& impact) {
   return 2.0 / 3.0 * impact.diameter_m < kThinnestLamella_m * std::sqrt(weber(impact));
 }
@@ -152,7 +147,7 @@ int64_t Drops::cut(int slot, int64_t keep_pl) {
 
 // When slots run short larger and larger sizes lie as beads, the limit rising from 0 at half full to 2 mm at
 // full.
-void Drops::impact(const DropWorld& world, const Impact& impact) {
+bool Drops::impact(const DropWorld& world, const Impact& impact) {
   const int64_t volume_pl = passed(LeakyKernel::impact, impact.volume_pl);
   const double used =
       slots_.capacity_ == 0 ? 1.0 : static_cast<double>(live_) / static_cast<double>(slots_.capacity_);
@@ -164,7 +159,7 @@ void Drops::impact(const DropWorld& world, const Impact& impact) {
     // The splash's lamella spreads it over some five diameters.
     world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres,
                       2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
-    return;
+    return true;
   }
   const int under = covering(world, impact.place_m);
   if (under >= 0) {
@@ -173,12 +168,12 @@ void Drops::impact(const DropWorld& world, const Impact& impact) {
     settle(drop);
     if (!drop.changed) changed_.push_back(under);
     drop.changed = true;
-    return;
+    return false;
   }
-  if (lieAsBead(world, impact.place_m, volume_pl)) return;
+  if (lieAsBead(world, impact.place_m, volume_pl)) return false;
   if (short_of_slots || (shatters(impact) && !no_beads)) {
     shatter(world, impact, volume_pl);
-    return;
+    return false;
   }
   // A falling drop spreads until its edge has some angle between both: the more so, the rougher it met the
   // glass.
@@ -190,6 +185,7 @@ void Drops::impact(const DropWorld& world, const Impact& impact) {
     takeUnder(world, slot);
   else
     shatter(world, impact, volume_pl);
+  return false;
 }
 
 // A volume that a texel holds as a lone bead does not become a drop, where there is a film to hold it.
@@ -207,7 +203,7 @@ bool Drops::lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume
 // Fragments lie anywhere in the lamella's circle, of all sizes: their shares of the volume fall as intervals
 // of a Poisson process do.
 void Drops::shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl) {
-  const double reach_m = 0.5 * impact.diameter_m * std::sqrt(std::sqrt(weber(impact)));
+  const double reach_m = lamellaRadius_m(impact);
   const glm::dvec2 metres = world.forces.at(world.map, impact.place_m).metres;
   std::array<double, kFragments> upTo{};
   double sum = 0.0;

@@ -69,8 +69,8 @@ class Drops {
   int add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed,
           bool as_told = false);
   // A raindrop: joins the drop it falls on; lies as a bead when it is small; breaks up into beads when it is
-  // fast, or where slots run short; is film where that is thick; else a new drop.
-  void impact(const DropWorld& world, const Impact& impact);
+  // fast, or where slots run short; is film where that is thick (true); else a new drop.
+  bool impact(const DropWorld& world, const Impact& impact);
   // Water a drop ran over; goes to the film again when the drop is no more.
   void give(const DropWorld& world, const Taker& taker, int64_t volume_pl);
   // Removes a drop and says how much it was.

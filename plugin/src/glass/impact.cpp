@@ -38,6 +38,14 @@ int pickTexel(const PaneMap& map, int region, const glm::dvec3& v, Stream& rando
 
 }  // namespace
 
+double weber(const Impact& impact) {
+  return kRho_kg_m3 * impact.speed_mps * impact.speed_mps * impact.diameter_m / kGamma_n_m;
+}
+
+double lamellaRadius_m(const Impact& impact) {
+  return 0.5 * impact.diameter_m * std::sqrt(std::sqrt(weber(impact)));
+}
+
 double catchRate_m3_s(const PaneMap& map, const PaneTick& tick) {
   double sum = 0.0;
   for (uint32_t c = 0; c < tick.class_count; ++c) {

@@ -17,6 +17,12 @@ struct Impact {
   uint32_t hash = 0;  // for what is random about this drop
 };
 
+double weber(const Impact& impact);
+
+// How far such a drop's water spreads over the glass: D We^(1/4) across (Clanet, Beguin, Richard & Quere
+// 2004).
+double lamellaRadius_m(const Impact& impact);
+
 // Water that meets the pane in a second, m^3/s: sum over sizes and regions of N V_D max(0, -(v_drop -
 // v_glass) . n) A.
 double catchRate_m3_s(const PaneMap& map, const PaneTick& tick);

@@ -87,6 +87,7 @@ struct GlassLook::Parts {
       : gl(context),
         film_program(gl, {"glass/look_screen.vert", "glass/look_film.frag"}),
         beads_program(gl, {"glass/look_screen.vert", "glass/look_beads.frag"}),
+        crater_program(gl, {"glass/look_crater.vert", "glass/look_crater.frag"}),
         inside_programs{
             {{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
               gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideEnvironment)},
@@ -136,7 +137,7 @@ struct GlassLook::Parts {
   }
 
   const GladGLContext& gl;
-  gl::Program film_program, beads_program;
+  gl::Program film_program, beads_program, crater_program;
   // For a film of few and of many pixels to a texel, each without and with an environment.
   std::array<std::array<gl::Program, 2>, 2> inside_programs;
   std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
@@ -240,6 +241,13 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
 
 void GlassLook::Parts::composeFilm(const LookPane& pane) {
   film_seen = compose(films, pane, film_program, {pane.film, pane.frame, pane.metric});
+  if (pane.crater_count == 0) return;
+  gl.Enablei(GL_BLEND, 0);
+  gl.BlendEquationi(0, GL_FUNC_ADD);
+  gl.BlendFunci(0, GL_ONE, GL_ONE);
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.crater_buffer);
+  crater_program.use();
+  gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.crater_count);
 }
 
 void GlassLook::Parts::composeBeads(const LookPane& pane) {
@@ -341,7 +349,8 @@ void GlassLook::Parts::drawFog(const LookPane& pane) {
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &beads_program, &small_program}) program->forget();
+  for (gl::Program* program : {&film_program, &beads_program, &crater_program, &small_program})
+    program->forget();
   for (size_t k : {0u, 1u}) {
     for (gl::Program& program : inside_programs[k]) program.forget();
     outside_programs[k].forget();

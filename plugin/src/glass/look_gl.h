@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/glass_crater.glsl"
 #include "shared/glass_types.glsl"
 
 struct GladGLContext;
@@ -106,6 +107,9 @@ struct LookPane {
   // drops), others their own.
   uint32_t drop_buffer = 0;
   int32_t drop_count = 0;
+  // Craters in the film: shared::CraterRecord in an SSBO, of the same time.
+  uint32_t crater_buffer = 0;
+  int32_t crater_count = 0;
   float drop_age_s = 0.0f;  // the picture's time minus the records': drops are drawn moved on by so much
 };
 

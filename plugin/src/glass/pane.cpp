@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "glass/blades.h"
+#include "glass/craters.h"
 #include "glass/drops.h"
 #include "glass/film_link.h"
 #include "glass/impact.h"
@@ -62,7 +63,8 @@ struct PaneSim::State {
         map(info),
         mesh(info),
         film(map, ledger),
-        drops(map, surface, info.max_drops) {}
+        drops(map, surface, info.max_drops),
+        craters(map) {}
 
   struct Waiting {
     PaneTick tick;
@@ -96,6 +98,7 @@ struct PaneSim::State {
   Ledger ledger;
   FilmLink film;
   Drops drops;
+  Craters craters;
   Blades blades;
   ForceField forces;
   std::vector<Impact> impacts;
@@ -128,7 +131,10 @@ void PaneSim::State::catchRain() {
   const DropWorld shared_world = world();
   for (const Impact& impact : impacts) {
     ledger.caught_pl += impact.volume_pl;
-    drops.impact(shared_world, impact);
+    const bool in_film = drops.impact(shared_world, impact);
+    const double film_m = in_film ? film.thickness_m(impact.texel) : 0.0;
+    if (film_m > surface.rupture_m)
+      craters.add(impact, film_m, forces, ticks);  // a thinner film opens for good
   }
 }
 
@@ -297,6 +303,7 @@ void PaneSim::reset() {
   const std::lock_guard lock(state_->mutex);
   state_->waiting.clear();
   state_->drops.clear();
+  state_->craters.clear();
   state_->film.clear();
   state_->blades.clear();
   state_->ledger = {};
@@ -315,6 +322,7 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
   made->blades = state_->blades.moving();
   made->advancing_rad = state_->surface.advancing_rad;
   made->bead_contact_rad = meanAngle(state_->surface);
+  made->craters = state_->craters.at(state_->ticks);
   made->drops.reserve(state_->drops.count());
   for (const Drop& drop : state_->drops.all()) {
     if (drop.volume_pl == 0) continue;

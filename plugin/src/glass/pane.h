@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/glass_crater.glsl"
 #include "shared/glass_types.glsl"
 
 namespace rg::glass {
@@ -136,6 +137,7 @@ struct MovingBlade {
 struct PaneSnapshot {
   int64_t tick = 0;
   std::vector<shared::GlassDropRecord> drops;
+  std::vector<shared::CraterRecord> craters;
   std::vector<MovingBlade> blades;
   double advancing_rad = 0.0;  // contact angle of what is pushed
   double bead_contact_rad = 0.0;

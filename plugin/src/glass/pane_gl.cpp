@@ -92,12 +92,14 @@ struct PaneGl::Parts {
 
   void run(bool wait_for_all);
   void uploadDrops();
+  template <class Record>
+  void upload(gl::Buffer& to, const std::vector<Record>& records) const;
 
   const GladGLContext& gl;
   std::shared_ptr<PaneSim> sim;
   FilmGl film;
   Maps maps;
-  gl::Buffer vertices, indices, drops;
+  gl::Buffer vertices, indices, drops, craters;
   std::shared_ptr<const PaneSnapshot> drawn;
 };
 
@@ -120,14 +122,19 @@ void PaneGl::Parts::run(bool wait_for_all) {
   }
 }
 
+template <class Record>
+void PaneGl::Parts::upload(gl::Buffer& to, const std::vector<Record>& records) const {
+  const size_t bytes = records.size() * sizeof(Record);
+  if (to.bytes() < bytes || !to) to = gl::Buffer(gl, std::max<size_t>(bytes * 2, 64 * sizeof(Record)));
+  if (bytes > 0) to.write(0, records.data(), bytes);
+}
+
 void PaneGl::Parts::uploadDrops() {
   auto now = sim->snapshot();
   if (now == drawn) return;
   drawn = std::move(now);
-  const size_t bytes = drawn->drops.size() * sizeof(shared::GlassDropRecord);
-  if (drops.bytes() < bytes || !drops)
-    drops = gl::Buffer(gl, std::max<size_t>(bytes * 2, 64 * sizeof(shared::GlassDropRecord)));
-  if (bytes > 0) drops.write(0, drawn->drops.data(), bytes);
+  upload(drops, drawn->drops);
+  upload(craters, drawn->craters);
 }
 
 void PaneGl::step() {
@@ -159,6 +166,8 @@ PaneDrawn PaneGl::drawn() const {
   if (parts_->drawn) {
     out.drop_buffer = parts_->drops.name();
     out.drop_count = static_cast<int32_t>(parts_->drawn->drops.size());
+    out.crater_buffer = parts_->craters.name();
+    out.crater_count = static_cast<int32_t>(parts_->drawn->craters.size());
     out.drop_tick = parts_->drawn->tick;
     out.ridge_buffer = parts_->film.ridges().name();
     out.blades = parts_->drawn->blades;
@@ -199,6 +208,7 @@ void PaneGl::abandon() {
   p.vertices.forget();
   p.indices.forget();
   p.drops.forget();
+  p.craters.forget();
 }
 
 }  // namespace rg::glass

@@ -44,7 +44,9 @@ struct PaneDrawn {
   float texel_m = 0.0f;      // grid metres: uv = position_m / (texel_m * film_size)
   uint32_t drop_buffer = 0;  // shared::GlassDropRecord
   int32_t drop_count = 0;
-  int64_t drop_tick = 0;                     // the tick the records are of
+  uint32_t crater_buffer = 0;  // shared::CraterRecord
+  int32_t crater_count = 0;
+  int64_t drop_tick = 0;                     // the tick both kinds of records are of
   uint32_t ridge_buffer = 0;                 // int picolitres of each piece of the blades' ridges
   std::span<const MovingBlade> blades = {};  // as at that tick, until the next step
   double advancing_rad = 0.0;

@@ -1,0 +1,83 @@
+#include "glass/craters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "glass/water.h"
+#include "tick.h"
+
+namespace rg::glass {
+namespace {
+
+constexpr double kCell_m = 10e-3;      // one crater to a cell: as wide as that of a large drop
+constexpr double kLeastWidth = 1.0;    // texels; the film's picture cannot show smaller ones
+constexpr float kSeenSlope = 2.8e-4f;  // one minute of arc, see physics.md 6
+
+// Waves travel with dq/dh of a film's flow q (physics.md 4).
+glm::dvec2 waveVelocity_mps(const Push& push, const glm::dvec2& shear_pa, double film_m) {
+  return (push.acceleration_mps2 * (kRho_kg_m3 * film_m) + shear_pa) * (film_m / kMu_pa_s);
+}
+
+bool isSeen(const shared::CraterRecord& crater, double age_s) {
+  const auto age = static_cast<float>(age_s);
+  return crater.film_m * shared::craterDepthLeft(crater, age) >
+         kSeenSlope * shared::craterWidth_m(crater, age);
+}
+
+}  // namespace
+
+Craters::Craters(const PaneMap& map)
+    : map_(map), cell_count_(glm::ceil(glm::dvec2(map.grid().size) * map.grid().texel_m / kCell_m)) {
+  clear();
+}
+
+void Craters::clear() {
+  craters_.clear();
+  of_cell_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), -1);
+}
+
+size_t Craters::cellOf(glm::dvec2 place_m) const {
+  const glm::ivec2 cell = glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
+  return static_cast<size_t>(cell.y * cell_count_.x + cell.x);
+}
+
+void Craters::add(const Impact& impact, double film_m, const ForceField& forces, int64_t tick) {
+  // The shape crosses the film's level at sqrt(2) of its width.
+  const double width_m = lamellaRadius_m(impact) / std::numbers::sqrt2;
+  if (width_m < kLeastWidth * map_.grid().texel_m) return;
+  const Push push = forces.at(map_, impact.place_m);
+  Crater crater;
+  crater.tick = tick;
+  crater.record.position_m = glm::vec2(impact.place_m);
+  const glm::dvec2 waves_mps = waveVelocity_mps(push, forces.shear_pa(push.air_mps), film_m);
+  crater.record.velocity_mps = glm::vec2(waves_mps / push.metres);
+  crater.record.overtaking_hz = static_cast<float>(glm::length(waves_mps) / width_m);
+  crater.record.width_m = static_cast<float>(width_m);
+  crater.record.film_m = static_cast<float>(film_m);
+  crater.record.levelling_m4_s = shared::craterLevelling_m4_s(crater.record.film_m);
+  if (!isSeen(crater.record, 0.0)) return;
+  int32_t& known = of_cell_[cellOf(impact.place_m)];
+  if (known >= 0) {
+    craters_[static_cast<size_t>(known)] = crater;
+    return;
+  }
+  known = static_cast<int32_t>(craters_.size());
+  craters_.push_back(crater);
+}
+
+std::vector<shared::CraterRecord> Craters::at(int64_t tick) {
+  const auto age_s = [tick](const Crater& c) { return static_cast<double>(tick - c.tick) * kTickSeconds; };
+  std::erase_if(craters_, [&](const Crater& c) { return !isSeen(c.record, age_s(c)); });
+  std::fill(of_cell_.begin(), of_cell_.end(), -1);
+  std::vector<shared::CraterRecord> out;
+  out.reserve(craters_.size());
+  for (const Crater& c : craters_) {
+    of_cell_[cellOf(glm::dvec2(c.record.position_m))] = static_cast<int32_t>(out.size());
+    out.push_back(c.record);
+    out.back().age_s = static_cast<float>(age_s(c));
+  }
+  return out;
+}
+
+}  // namespace rg::glass

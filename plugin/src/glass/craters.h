@@ -1,0 +1,38 @@
+// Craters that raindrops threw up in the film a moment ago: what is seen of an impact before surface tension
+// has levelled it. They hold no water; the film has it.
+#pragma once
+
+#include <vector>
+
+#include "glass/airflow.h"
+#include "glass/impact.h"
+#include "glass/pane_map.h"
+#include "shared/glass_crater.glsl"
+
+namespace rg::glass {
+
+class Craters {
+ public:
+  explicit Craters(const PaneMap& map);
+
+  // A drop fell into a film of this thickness. One too small to be seen in the film's grid leaves none; one
+  // that falls where another did takes its place.
+  void add(const Impact& impact, double film_m, const ForceField& forces, int64_t tick);
+  // Records as of a tick, of those that are still to be seen; forgets the others.
+  std::vector<shared::CraterRecord> at(int64_t tick);
+  void clear();
+
+ private:
+  struct Crater {
+    shared::CraterRecord record{};  // its age unset
+    int64_t tick = 0;
+  };
+  size_t cellOf(glm::dvec2 place_m) const;
+
+  const PaneMap& map_;
+  glm::ivec2 cell_count_;
+  std::vector<int32_t> of_cell_;  // its crater, or -1
+  std::vector<Crater> craters_;
+};
+
+}  // namespace rg::glass
