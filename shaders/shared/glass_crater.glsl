@@ -12,7 +12,7 @@ struct CraterRecord {
   float width_m;         // s of the shape below when it was thrown up, real metres
   float film_m;          // as thick as the film was
   float levelling_m4_s;  // craterLevelling_m4_s of it
-  float overtaking_hz;   // speed of the waves over width
+  float filling_hz;      // speed of the waves over width
   float age_s;
   float unused;
 };
@@ -31,10 +31,11 @@ RG_FN float craterLevelled(RG_IN(CraterRecord) crater, float age_s) {
 }
 RG_FN float craterWidth_m(RG_IN(CraterRecord) crater, float age_s) { return crater.width_m / sqrt(sqrt(craterLevelled(crater, age_s))); }
 
-// Where the film flows, thick parts overtake thin ones: waves of no net volume fall as 1 / (1 + t dc/dh depth / s) (Whitham 1974, Linear and Nonlinear
-// Waves, ch. 2), c being the waves' speed, about 2 c / h its growth with h.
+// Where the film flows it runs into the hole, in which what is left hardly moves, as a front: at [q] / [h] (Whitham 1974, Linear and Nonlinear Waves, ch. 2),
+// with q = c h / 3 and c ~ h^2 that is 0.41 c; half of the hole's 2 sqrt(2) s is full when the front has gone half that way.
+RG_CONST float kCraterFills = 0.29f; // of c / s
 RG_FN float craterDepthLeft(RG_IN(CraterRecord) crater, float age_s) {
-  return craterLevelled(crater, age_s) / (1.0f + 2.0f * kCraterOpened * crater.overtaking_hz * max(age_s, 0.0f));
+  return craterLevelled(crater, age_s) / (1.0f + kCraterFills * crater.filling_hz * max(age_s, 0.0f));
 }
 
 // Of the film's thickness, at a distance of r = width * sqrt(2 q): what is added to it, and what of r / width^2 its slope away from the middle is.

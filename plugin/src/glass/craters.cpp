@@ -10,9 +10,10 @@
 namespace rg::glass {
 namespace {
 
-constexpr double kCell_m = 10e-3;      // one crater to a cell: as wide as that of a large drop
-constexpr double kLeastWidth = 1.0;    // texels; the film's picture cannot show smaller ones
-constexpr float kSeenSlope = 2.8e-4f;  // one minute of arc, see physics.md 6
+constexpr double kCell_m = 10e-3;       // one crater to a cell: as wide as that of a large drop
+constexpr double kLeastWidth = 1.0;     // texels; the film's picture cannot show smaller ones
+constexpr double kLeastFilm_m = 10e-6;  // a thinner one hardly bends a view, and stands still (unsourced)
+constexpr float kSeenSlope = 2.8e-4f;   // one minute of arc, see physics.md 6
 
 // Waves travel with dq/dh of a film's flow q (physics.md 4).
 glm::dvec2 waveVelocity_mps(const Push& push, const glm::dvec2& shear_pa, double film_m) {
@@ -45,14 +46,14 @@ size_t Craters::cellOf(glm::dvec2 place_m) const {
 void Craters::add(const Impact& impact, double film_m, const ForceField& forces, int64_t tick) {
   // The shape crosses the film's level at sqrt(2) of its width.
   const double width_m = lamellaRadius_m(impact) / std::numbers::sqrt2;
-  if (width_m < kLeastWidth * map_.grid().texel_m) return;
+  if (film_m < kLeastFilm_m || width_m < kLeastWidth * map_.grid().texel_m) return;
   const Push push = forces.at(map_, impact.place_m);
   Crater crater;
   crater.tick = tick;
   crater.record.position_m = glm::vec2(impact.place_m);
   const glm::dvec2 waves_mps = waveVelocity_mps(push, forces.shear_pa(push.air_mps), film_m);
   crater.record.velocity_mps = glm::vec2(waves_mps / push.metres);
-  crater.record.overtaking_hz = static_cast<float>(glm::length(waves_mps) / width_m);
+  crater.record.filling_hz = static_cast<float>(glm::length(waves_mps) / width_m);
   crater.record.width_m = static_cast<float>(width_m);
   crater.record.film_m = static_cast<float>(film_m);
   crater.record.levelling_m4_s = shared::craterLevelling_m4_s(crater.record.film_m);

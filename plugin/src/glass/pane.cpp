@@ -132,9 +132,7 @@ void PaneSim::State::catchRain() {
   for (const Impact& impact : impacts) {
     ledger.caught_pl += impact.volume_pl;
     const bool in_film = drops.impact(shared_world, impact);
-    const double film_m = in_film ? film.thickness_m(impact.texel) : 0.0;
-    if (film_m > surface.rupture_m)
-      craters.add(impact, film_m, forces, ticks);  // a thinner film opens for good
+    if (in_film) craters.add(impact, film.thickness_m(impact.texel), forces, ticks);
   }
 }
 
