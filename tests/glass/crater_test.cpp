@@ -96,8 +96,9 @@ TEST_F(Craters, areLeftInAFilmAloneAndLevelWhenTheRainEnds) {
     EXPECT_LT(record.position_m.x, 0.5f);
   }
   const double rough_m = depthsOf(*wet.sim);
-  wet.run(weather(0.0), 4.0);
-  EXPECT_LT(depthsOf(*wet.sim), 0.1 * rough_m);
+  // Waves of a film of 30 um run 4 mm/s: a hole as wide is half full after some four seconds.
+  wet.run(weather(0.0), 20.0);
+  EXPECT_LT(depthsOf(*wet.sim), 0.25 * rough_m);
   wet.sim->reset();
   EXPECT_TRUE(wet.sim->snapshot()->craters.empty());
 }
