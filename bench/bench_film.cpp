@@ -2,8 +2,6 @@
 // copy of the film's whole state by the same groups in the same format, frame by frame in turn. Prints CSV;
 // bench/README.md tells what is measured and how.
 #include <algorithm>
-#include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -15,12 +13,16 @@
 #include "gl/program.h"
 #include "glass/film_gl.h"
 #include "glass/pane.h"
+#include "measure.h"
 #include "off_screen.h"
 #include "shared/hash.glsl"
 
 namespace {
 
 using namespace rg;
+using bench::median;
+using bench::number;
+using bench::Stopwatch;
 
 constexpr const char* kUsage =
     "bench_film [--frames N] [--grid WxH]...\n"
@@ -41,16 +43,6 @@ struct Options {
   std::vector<glm::ivec2> grids;
 };
 
-int number(std::string_view text, int least, int most, const char* what) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) {
-    throw std::invalid_argument(std::string(what) + " must be a whole number from " + std::to_string(least) +
-                                " to " + std::to_string(most) + ", not '" + std::string(text) + "'");
-  }
-  return value;
-}
-
 Options parse(int argc, char** argv) {
   Options options;
   for (int i = 1; i < argc; i += 2) {
@@ -70,46 +62,6 @@ Options parse(int argc, char** argv) {
   if (options.grids.empty()) options.grids = {{512, 256}, {2048, 1024}};
   return options;
 }
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
-
-// Milliseconds from one mark of the GL's to the next: on software GL, which has no clock of its own, each
-// waits until all is done.
-class Stopwatch {
- public:
-  explicit Stopwatch(const GladGLContext& gl)
-      : gl_(gl), software_(std::strstr(name(gl), "llvmpipe") || std::strstr(name(gl), "softpipe")) {
-    for (gl::TimestampQuery& query : queries_) query = gl::TimestampQuery(gl);
-  }
-  template <class Work>
-  double time(const Work& work) {
-    const double from_ms = mark(0);
-    work();
-    const double to_ms = mark(1);
-    return software_ ? to_ms - from_ms
-                     : 1e-6 * (static_cast<double>(queries_[1].ns()) - static_cast<double>(queries_[0].ns()));
-  }
-
- private:
-  static const char* name(const GladGLContext& gl) {
-    return reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
-  }
-  double mark(size_t which) {
-    if (!software_) {
-      queries_[which].stamp();
-      return 0.0;
-    }
-    gl_.Finish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  }
-  const GladGLContext& gl_;
-  bool software_;
-  std::array<gl::TimestampQuery, 2> queries_;
-};
 
 // A flat pane of a grid, its rim of a texel off the glass.
 std::unique_ptr<glass::PaneMap> paneOf(glm::ivec2 grid) {
