@@ -160,6 +160,7 @@ void PaneMap::rasterise(const PaneInfo& info) {
     inside_[i] = texels_[i].area_m2 > 0.0f ? 1 : 0;
   }
   if (area_m2_ <= 0.0) refusePane(info, "is smaller than a texel");
+  shown_ = inside_;
 }
 
 // Right and up at the pane's middle, and from them glass metres.
@@ -187,6 +188,8 @@ void PaneMap::findDirections() {
   const glm::dvec3 vertical = std::abs(normal.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 up = glm::normalize(vertical - glm::dot(vertical, normal) * normal);
   const glm::dvec3 right = glm::cross(normal, up);  // seen from inside, looking out along the normal
+  mean_normal_ = normal;
+  mean_up_ = up;
   glassFromGrid_ = glm::dmat2(glm::dot(along_x, right), glm::dot(along_x, up), glm::dot(along_y, right),
                               glm::dot(along_y, up));
   gridFromGlass_ = glm::inverse(glassFromGrid_);
@@ -198,7 +201,7 @@ int PaneMap::texelAt(glm::dvec2 grid_m) const {
             y = static_cast<int>(std::floor(grid_m.y / grid_.texel_m));
   if (x < 0 || y < 0 || x >= grid_.size.x || y >= grid_.size.y) return -1;
   const int index = y * grid_.size.x + x;
-  return inside(index) ? index : -1;
+  return shown(index) ? index : -1;
 }
 
 glm::dvec2 PaneMap::middleOf(int index) const {
@@ -248,6 +251,7 @@ void PaneMap::makeNodes() {
     glass_low = glm::min(glass_low, glass);
     glass_high = glm::max(glass_high, glass);
   }
+  glass_extent_m_ = glass_high - glass_low + 1e-9;
   for (bool missing = true; missing;) {
     missing = false;
     const std::vector<double> known = weight;
@@ -281,9 +285,9 @@ void PaneMap::makeNodes() {
         glm::dvec2(static_cast<int>(n) % nodes_across_.x, static_cast<int>(n) / nodes_across_.x) *
         (kTile * grid_.texel_m);
     // Written so that left and right are alike to the last bit.
-    const glm::dvec2 glass = glassFromGrid(place), extent = glass_high - glass_low + 1e-9;
-    node.across = std::clamp((2.0 * glass.x - (glass_low.x + glass_high.x)) / extent.x, -1.0, 1.0);
-    node.height = std::clamp((glass.y - glass_low.y) / extent.y, 0.0, 1.0);
+    const glm::dvec2 glass = glassFromGrid(place);
+    node.across = std::clamp((2.0 * glass.x - (glass_low.x + glass_high.x)) / glass_extent_m_.x, -1.0, 1.0);
+    node.height = std::clamp((glass.y - glass_low.y) / glass_extent_m_.y, 0.0, 1.0);
     const double area = glm::length(glm::cross(node.along_x, node.along_y)) * grid_.texel_m * grid_.texel_m;
     node_metric_.emplace_back(static_cast<float>(glm::length(node.along_x) * grid_.texel_m),
                               static_cast<float>(glm::length(node.along_y) * grid_.texel_m),
@@ -291,19 +295,62 @@ void PaneMap::makeNodes() {
   }
 }
 
+glm::dvec2 PaneMap::acrossAndHeight(const glm::dvec3& shift_m) const {
+  const glm::dvec3 right = glm::cross(mean_normal_, mean_up_);
+  return glm::dvec2(2.0 * glm::dot(shift_m, right), glm::dot(shift_m, mean_up_)) / glass_extent_m_;
+}
+
+size_t PaneMap::regionOf(int index) const {
+  const int x = (index % grid_.size.x) * kRegionsAcross / grid_.size.x,
+            y = (index / grid_.size.x) * kRegionsAcross / grid_.size.y;
+  return static_cast<size_t>(y * kRegionsAcross + x);
+}
+
 void PaneMap::makeRegions() {
   for (int i = 0; i < texelCount(); ++i) {
     if (!inside(i)) continue;
-    const int x = (i % grid_.size.x) * kRegionsAcross / grid_.size.x,
-              y = (i / grid_.size.x) * kRegionsAcross / grid_.size.y;
-    const size_t r = static_cast<size_t>(y * kRegionsAcross + x);
+    const size_t r = regionOf(i);
     regions_[r].push_back(i);
     region_area_[r] += static_cast<double>(texel(i).area_m2) * glm::dvec3(texel(i).normal);
   }
+  all_of_region_ = regions_;
   for (size_t r = 0; r < regions_.size(); ++r) {
     glm::dvec3 sum{0.0};
     for (const int i : regions_[r]) sum += glm::dvec3(texel(i).position_m);
     if (!regions_[r].empty()) region_centre_[r] = sum / static_cast<double>(regions_[r].size());
+  }
+}
+
+size_t PaneMap::tileOf(int index) const {
+  const int x = index % grid_.size.x / shared::kTileSize, y = index / grid_.size.x / shared::kTileSize;
+  return static_cast<size_t>(y * tileCount().x + x);
+}
+
+// Regions and tiles are summed afresh, so that what they are depends on what is shown alone.
+void PaneMap::show(std::span<const int> texels, bool shown) {
+  std::array<bool, kRegions> touched{};
+  std::vector<bool> touched_tiles(tile_area_m2_.size(), false);
+  for (const int i : texels) {
+    shown_[static_cast<size_t>(i)] = shown ? 1 : 0;
+    touched[regionOf(i)] = true;
+    touched_tiles[tileOf(i)] = true;
+  }
+  for (size_t t = 0; t < tile_area_m2_.size(); ++t) {
+    if (touched_tiles[t]) tile_area_m2_[t] = 0.0f;
+  }
+  for (int i = 0; i < texelCount(); ++i) {
+    const size_t t = tileOf(i);
+    if (touched_tiles[t] && this->shown(i)) tile_area_m2_[t] += texel(i).area_m2;
+  }
+  for (size_t r = 0; r < regions_.size(); ++r) {
+    if (!touched[r]) continue;
+    regions_[r].clear();
+    region_area_[r] = glm::dvec3(0.0);
+    for (const int i : all_of_region_[r]) {
+      if (!this->shown(i)) continue;
+      regions_[r].push_back(i);
+      region_area_[r] += static_cast<double>(texel(i).area_m2) * glm::dvec3(texel(i).normal);
+    }
   }
 }
 
