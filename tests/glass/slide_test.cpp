@@ -14,14 +14,14 @@
 namespace rg::test {
 namespace {
 
-constexpr double kHeight_m = 0.3, kTexel_m = 6e-3;
+constexpr double kWindow_m = 0.3, kWindowTexel_m = 6e-3;
 
 // A side window: nearly upright, looking ahead, so that wind drives rain at it.
-Mesh window() { return windscreen(0.45, kHeight_m, rad(75), 0.0, 4); }
+Mesh window() { return windscreen(0.45, kWindow_m, rad(75), 0.0, 4); }
 
 glass::PaneInfo info(const Mesh& mesh) {
   glass::PaneInfo info = paneInfo(mesh);
-  info.texel_m = kTexel_m;
+  info.texel_m = kWindowTexel_m;
   return info;
 }
 
@@ -35,7 +35,7 @@ struct Hidden {
   size_t texels = 0, off = 0;
   int64_t film_pl = 0;
 };
-Hidden hidden(Simulation& run, double opening_m, double more_m = 0.0) {
+Hidden behindSill(Simulation& run, double opening_m, double more_m = 0.0) {
   Hidden out;
   const std::vector<int32_t> film = run.pane.readFilm();
   const glass::PaneMap& map = run.sim->map();
@@ -61,10 +61,10 @@ TEST(Slide, itsOwnSillIsTheLowerEdge) {
   constexpr double kTolerance_m = 1e-6;  // of float positions
   EXPECT_NEAR(glm::distance(slide.direction(), -glm::dvec3(up)), 0.0, 1e-6);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    const double above_m = kHeight_m * static_cast<double>(mesh.uvs[i].y);
+    const double above_m = kWindow_m * static_cast<double>(mesh.uvs[i].y);
     EXPECT_NEAR(slide.way_m(glm::dvec3(mesh.positions[i])), above_m, kTolerance_m);
   }
-  const glass::PaneMesh seen = glass::cutAtSill(glass::PaneMesh(pane), slide, 0.1);
+  const glass::PaneMesh seen = glass::cutAtSill(glass::PaneMesh(pane, map), slide, 0.1);
   double area_m2 = 0.0;
   for (size_t t = 0; t < seen.indices.size(); t += 3) {
     const auto p = [&](size_t k) {
@@ -74,8 +74,8 @@ TEST(Slide, itsOwnSillIsTheLowerEdge) {
     EXPECT_GE(slide.way_m(p(0)), 0.1 - kTolerance_m);
     area_m2 += 0.5 * glm::length(glm::cross(p(1) - p(0), p(2) - p(0)));
   }
-  EXPECT_NEAR(area_m2, 0.45 * (kHeight_m - 0.1), 1e-6);
-  EXPECT_TRUE(glass::cutAtSill(glass::PaneMesh(pane), slide, 0.31).indices.empty());
+  EXPECT_NEAR(area_m2, 0.45 * (kWindow_m - 0.1), 1e-6);
+  EXPECT_TRUE(glass::cutAtSill(glass::PaneMesh(pane, map), slide, 0.31).indices.empty());
 }
 
 TEST(Slide, refusesASillThatCannotBe) {
@@ -114,20 +114,20 @@ TEST(Slide, whatIsBehindTheSillCatchesNothing) {
       sim.submit(tick);
     }
     // A row of texels more or less.
-    EXPECT_NEAR(glass::catchRate_m3_s(sim.map(), rain) / shut_m3_s, 0.5, kTexel_m / kHeight_m);
+    EXPECT_NEAR(glass::catchRate_m3_s(sim.map(), rain) / shut_m3_s, 0.5, kWindowTexel_m / kWindow_m);
     const auto seen = sim.snapshot();
     EXPECT_GT(seen->drops.size(), 50u);
     for (const auto& drop : seen->drops) {
       const auto place = sim.map().vehicleFromGrid(glm::dvec2(drop.position_m));
       ASSERT_TRUE(place);
-      EXPECT_GE(sim.slide().way_m(*place), opening_m - kTexel_m);
+      EXPECT_GE(sim.slide().way_m(*place), opening_m - kWindowTexel_m);
     }
   }
 }
 
 // The air's field is the car's: a pane that has slid down stands in the air that is there.
 TEST(Slide, airOverTheGlassIsThatOfThePlaceItHasSlidTo) {
-  const Mesh mesh = windscreen(0.45, kHeight_m, rad(60), 0.0, 4);
+  const Mesh mesh = windscreen(0.45, kWindow_m, rad(60), 0.0, 4);
   const glass::PaneInfo pane = info(mesh);
   const glass::PaneMap map(pane);
   const glm::dvec3 air(-20.0, 0.0, 0.0), gravity(0.0, 0.0, -9.81);
@@ -153,12 +153,12 @@ TEST_F(SlidingFilm, theSealStripsWhatGoesDown) {
   const glass::PaneTick still = opened(weather(0.0), 0.0);
   run.run(still, 0.5);
   const glass::PaneStats before = run.stats();
-  ASSERT_GT(hidden(run, 0.15).film_pl, 0) << "there is nothing to strip";
+  ASSERT_GT(behindSill(run, 0.15).film_pl, 0) << "there is nothing to strip";
 
   // At once: more texels than a step strips.
   run.run(opened(still, 0.15), 0.5);
   const glass::PaneStats down = run.stats();
-  const Hidden behind = hidden(run, 0.15);
+  const Hidden behind = behindSill(run, 0.15);
   EXPECT_GT(behind.texels, 1500u);
   EXPECT_EQ(behind.off, behind.texels);
   EXPECT_EQ(down.caught_pl, before.caught_pl);
@@ -170,7 +170,7 @@ TEST_F(SlidingFilm, theSealStripsWhatGoesDown) {
   const glass::PaneStats up = run.stats();
   EXPECT_EQ(up.caught_pl, sumOf(up));
   constexpr double kRunsDown_m = 0.08;  // as far as water from above may come in that time
-  const Hidden back = hidden(run, 0.15, kRunsDown_m);
+  const Hidden back = behindSill(run, 0.15, kRunsDown_m);
   EXPECT_GT(back.texels, 500u);
   EXPECT_EQ(back.off, 0u);
   EXPECT_EQ(back.film_pl, 0);
@@ -197,7 +197,7 @@ TEST_F(SlidingFilm, theLedgerClosesWhereverItStands) {
     run.run(opened(rain, 0.2), 0.3);
     s = run.stats();
     EXPECT_EQ(s.caught_pl, sumOf(s));
-    const Hidden behind = hidden(run, 0.2);
+    const Hidden behind = behindSill(run, 0.2);
     EXPECT_EQ(behind.off, behind.texels);
     run.sim->detachFilm();
     run.sim->attachFilm();

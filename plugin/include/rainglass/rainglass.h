@@ -260,7 +260,11 @@ typedef struct rg_pane_info {
   uint32_t vehicle; /* > 0 */
   const char* name;
   const float* positions_m; /* vehicle frame, xyz */
-  const float* uvs;         /* one chart without overlap, any scale */
+  const float* uvs;         /* without overlap, any scale. One chart whose lengths are a quarter off their mean
+                               at most is the pane's own grid. Where it has seams (vertices at one place with
+                               several uvs) or is less even, the mesh is laid flat anew, true to length as far
+                               as can be: then seams and uvs change nothing. With seams it must not turn by
+                               more than a right angle from its mean */
   const uint32_t* indices;  /* triangles */
   uint32_t vertex_count;
   uint32_t index_count;
@@ -483,7 +487,7 @@ typedef struct rg_parameter {
 } rg_parameter;
 
 /* Fixed. A drop placed on a pane: spherical cap on the outer face. The pane's middle is that of its uvs'
- * extent. */
+ * extent, or of the mesh laid flat (see rg_pane_info.uvs). */
 typedef struct rg_glass_drop {
   double u_m;               /* to the right of the pane's middle, seen from inside, looking out */
   double v_m;               /* up the pane from its middle */

@@ -62,7 +62,7 @@ struct PaneSim::State {
         film_enabled(info.film_enabled),
         surface(surfaceFor(info)),
         map(info),
-        mesh(info),
+        mesh(info, map),
         slide(info, map),
         film(map, ledger),
         drops(map, surface, info.max_drops) {}

@@ -31,7 +31,7 @@ struct PaneInfo {
   std::string name;
   std::span<const glm::vec3>
       positions_m;                 // vehicle frame; triangles counter-clockwise seen from the wet, outer side
-  std::span<const glm::vec2> uvs;  // one chart without overlap, any scale
+  std::span<const glm::vec2> uvs;  // without overlap, any scale; in one even chart, or see chart.h
   std::span<const uint32_t> indices;
   Glass glass = Glass::uncoated;
   double advancing_rad = 0.0;  // 0 = the preset's

@@ -3,45 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <tuple>
+
+#include "glass/chart.h"
 
 namespace rg::glass {
 namespace {
 
 constexpr int kMostTexels = 4096;        // along a side
 constexpr double kLeastArea_m2 = 1e-12;  // of a triangle; a smaller one is a mistake of the mesh
-
-[[noreturn]] void refusePane(const PaneInfo& info, const std::string& why) {
-  throw std::invalid_argument("pane '" + info.name + "': " + why);
-}
-
-struct Triangle {
-  std::array<glm::dvec3, 3> p;
-  std::array<glm::dvec2, 3> uv;
-  glm::dvec3 normal_area() const { return 0.5 * glm::cross(p[1] - p[0], p[2] - p[0]); }
-  double uvArea() const {
-    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    return 0.5 * (a.x * b.y - a.y * b.x);
-  }
-  // dP/du and dP/dv
-  std::pair<glm::dvec3, glm::dvec3> derivatives() const {
-    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    const double inv = 1.0 / (2.0 * uvArea());
-    const glm::dvec3 e = p[1] - p[0], f = p[2] - p[0];
-    return {(e * b.y - f * a.y) * inv, (f * a.x - e * b.x) * inv};
-  }
-};
-
-Triangle triangleOf(const PaneInfo& info, size_t t) {
-  Triangle out;
-  for (size_t k = 0; k < 3; ++k) {
-    const uint32_t i = info.indices[3 * t + k];
-    out.p[k] = info.positions_m[i];
-    out.uv[k] = info.uvs[i];
-  }
-  return out;
-}
 
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
@@ -62,10 +32,12 @@ void checkMesh(const PaneInfo& info) {
       refusePane(info, "vertex " + std::to_string(i) + " is not finite");
   }
   double uv_area = 0.0;
-  for (size_t t = 0; t < info.indices.size() / 3; ++t) uv_area += std::abs(triangleOf(info, t).uvArea());
+  const Chart given(info.uvs.begin(), info.uvs.end());
+  for (size_t t = 0; t < info.indices.size() / 3; ++t)
+    uv_area += std::abs(triangleOf(info, given, t).uvArea());
   if (uv_area <= 0.0) refusePane(info, "its uvs have no area");
   for (size_t t = 0; t < info.indices.size() / 3; ++t) {
-    const Triangle triangle = triangleOf(info, t);
+    const ChartTriangle triangle = triangleOf(info, given, t);
     if (glm::length(triangle.normal_area()) < kLeastArea_m2)
       refusePane(info, "triangle " + std::to_string(t) + " has no area");
     if (std::abs(triangle.uvArea()) < 1e-12 * uv_area)
@@ -77,6 +49,7 @@ void checkMesh(const PaneInfo& info) {
 
 PaneMap::PaneMap(const PaneInfo& info) {
   checkMesh(info);
+  chart_ = chartOf(info);
   layGrid(info);
   rasterise(info);
   findDirections();
@@ -84,23 +57,15 @@ PaneMap::PaneMap(const PaneInfo& info) {
   makeRegions();
 }
 
-// Scales uv so that a grid metre is a metre in the mean square over the glass.
+// Scales the chart so that a grid metre is a metre in the mean square over the glass.
 void PaneMap::layGrid(const PaneInfo& info) {
-  glm::dvec2 square{0.0}, least{1e300}, most{-1e300};
-  double area = 0.0;
-  for (size_t t = 0; t < info.indices.size() / 3; ++t) {
-    const Triangle triangle = triangleOf(info, t);
-    const auto [du, dv] = triangle.derivatives();
-    const double a = glm::length(triangle.normal_area());
-    square += a * glm::dvec2(glm::dot(du, du), glm::dot(dv, dv));
-    area += a;
-    for (const glm::dvec2& uv : triangle.uv) {
-      least = glm::min(least, uv);
-      most = glm::max(most, uv);
-    }
+  glm::dvec2 least{1e300}, most{-1e300};
+  for (const uint32_t i : info.indices) {
+    least = glm::min(least, chart_[i]);
+    most = glm::max(most, chart_[i]);
   }
   grid_.texel_m = info.texel_m;
-  grid_.metres_per_uv = glm::sqrt(square / area);
+  grid_.metres_per_uv = metresPerUnit(info, chart_);
   const glm::dvec2 texels = glm::ceil((most - least) * grid_.metres_per_uv / info.texel_m - 1e-6);
   if (!(texels.x <= kMostTexels && texels.y <= kMostTexels))
     refusePane(info, "needs more than 4096 texels along a side");
@@ -115,7 +80,7 @@ void PaneMap::rasterise(const PaneInfo& info) {
   constexpr double kOverlap = 1e-3;  // clearly inside of two triangles
   std::vector<uint8_t> clear(texels_.size(), 0);
   for (size_t t = 0; t < info.indices.size() / 3; ++t) {
-    Triangle triangle = triangleOf(info, t);
+    ChartTriangle triangle = triangleOf(info, chart_, t);
     const auto [du, dv] = triangle.derivatives();
     for (glm::dvec2& uv : triangle.uv) uv = (uv - grid_.uv_origin) * grid_.metres_per_uv / grid_.texel_m;
     const glm::dvec3 normal_area = triangle.normal_area();
@@ -355,13 +320,14 @@ void PaneMap::show(std::span<const int> texels, bool shown) {
 }
 
 // Vertices at one place share their normal, though they may have been split for uv or shading.
-PaneMesh::PaneMesh(const PaneInfo& info) : indices(info.indices.begin(), info.indices.end()) {
+PaneMesh::PaneMesh(const PaneInfo& info, const PaneMap& map)
+    : indices(info.indices.begin(), info.indices.end()) {
   const auto less = [](const glm::vec3& a, const glm::vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
   std::map<glm::vec3, glm::dvec3, decltype(less)> normals(less);
   for (size_t t = 0; t < indices.size() / 3; ++t) {
-    const glm::dvec3 area = triangleOf(info, t).normal_area();
+    const glm::dvec3 area = triangleOf(info, map.chart(), t).normal_area();
     for (size_t k = 0; k < 3; ++k)
       normals.try_emplace(info.positions_m[indices[3 * t + k]], 0.0).first->second += area;
   }
@@ -370,7 +336,8 @@ PaneMesh::PaneMesh(const PaneInfo& info) : indices(info.indices.begin(), info.in
     const auto found = normals.find(p);
     const glm::vec3 n =
         found == normals.end() ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(glm::normalize(found->second));
-    vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z, info.uvs[i].x, info.uvs[i].y});
+    const glm::vec2 uv(map.chart()[i]);
+    vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
   }
 }
 

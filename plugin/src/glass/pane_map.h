@@ -13,7 +13,7 @@
 
 namespace rg::glass {
 
-// Grid metres: the uv chart scaled so that it has metres on the average, x along u, y along v; the local
+// Grid metres: the chart scaled so that it has metres on the average, x along u, y along v; the local
 // metric does the rest.
 struct PaneGrid {
   glm::ivec2 size{0};         // texels; a rim of one texel lies off the pane
@@ -43,9 +43,11 @@ struct PaneNode {
 class PaneMap {
  public:
   // Throws std::invalid_argument naming the pane: uvs missing, without area or overlapping; degenerate
-  // triangles; indices out of range; NaN; smaller than a texel; more than 4096 texels along a side.
+  // triangles; indices out of range; NaN; smaller than a texel; more than 4096 texels along a side; seams on
+  // a pane that cannot be laid flat.
   explicit PaneMap(const PaneInfo& info);
 
+  const std::vector<glm::dvec2>& chart() const { return chart_; }  // of each vertex, see chart.h
   const PaneGrid& grid() const { return grid_; }
   int texelCount() const { return grid_.size.x * grid_.size.y; }
   const PaneTexel& texel(int index) const { return texels_[static_cast<size_t>(index)]; }
@@ -105,6 +107,7 @@ class PaneMap {
   size_t regionOf(int index) const;
   size_t tileOf(int index) const;
 
+  std::vector<glm::dvec2> chart_;
   PaneGrid grid_;
   std::vector<PaneTexel> texels_;
   std::vector<uint8_t> inside_;
@@ -127,10 +130,10 @@ class PaneMap {
 };
 
 // A copy of the mesh for those who draw it: floats {x, y, z, nx, ny, nz, u, v}, outward smooth normals, uv as
-// given.
+// of the chart.
 struct PaneMesh {
   PaneMesh() = default;
-  explicit PaneMesh(const PaneInfo& info);
+  PaneMesh(const PaneInfo& info, const PaneMap& map);
   std::vector<float> vertices;
   std::vector<uint32_t> indices;
 };
