@@ -229,6 +229,8 @@ void RainPlugin::update(int64_t time_ns) {
     s.view_stride = sizeof(rg_view);
     s.wiper_knots = m.knots.data();
     s.wiper_knot_count = static_cast<uint32_t>(m.knots.size());
+    s.opening_knots = m.openings.data();
+    s.opening_knot_count = static_cast<uint32_t>(m.openings.size());
     samples.push_back(s);
   }
   check(api_->update(instance_, time_ns, samples.data(), static_cast<uint32_t>(samples.size()),

@@ -37,6 +37,7 @@ struct Moment {
   rg_weather weather;
   rg_view view;
   std::vector<rg_wiper_knot> knots;
+  std::vector<rg_opening_knot> openings;
 };
 
 class RainPlugin {

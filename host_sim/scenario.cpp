@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kKmh = 1.0 / 3.6;
 constexpr size_t kMostTraffic = 32;  // each is drawn whole
+constexpr double kWidestOpening_m = 1.0;
 
 // Reads a table key by key; finish() refuses what nobody asked for.
 class Reader {
@@ -190,6 +191,15 @@ void readDemister(Reader& top, Scenario& s) {
   for (const auto& [at, value] : top.pairs("demister", *node)) s.demister.emplace_back(at, share(*value));
 }
 
+// Which panes there are the car knows.
+void readWindows(Reader windows, Scenario& s) {
+  if (windows.table() == nullptr) return;
+  for (const auto& [key, value] : *windows.table()) {
+    const std::string pane(key.str());
+    s.windows.emplace_back(pane, windows.curve(pane.c_str(), 0.0, 0.0, kWidestOpening_m));
+  }
+}
+
 void readParameters(Reader& top, Scenario& s) {
   const Reader section = top.section("plugin");
   if (section.table() == nullptr) return;
@@ -295,6 +305,7 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   s.wiper_pause_s = top.number("wiper_pause_s", kIntermittentPause_s, 0.5, 60.0);
   readWashes(top, s);
   readDemister(top, s);
+  readWindows(top.section("windows"), s);
   readParameters(top, s);
   top.finish();
   return s;

@@ -45,9 +45,10 @@ struct Scenario {
   double sun_azimuth_deg = 140.0;
   std::vector<WiperSwitch> wipers;
   double wiper_pause_s = kIntermittentPause_s;
-  std::vector<double> washes;                       // seconds
-  std::vector<std::pair<double, double>> demister;  // from second on: share of its full flow
-  std::string camera = "cockpit";                   // see cameraNames() in simulation.h
+  std::vector<double> washes;                          // seconds
+  std::vector<std::pair<double, double>> demister;     // from second on: share of its full flow
+  std::vector<std::pair<std::string, Curve>> windows;  // how far they have slid open, m, by their pane
+  std::string camera = "cockpit";                      // see cameraNames() in simulation.h
   // Luminance that is white in a picture of fixed exposure without tone curve, as a camera takes it; none:
   // the driver's eye adapts.
   std::optional<double> white_cd_m2;

@@ -64,6 +64,11 @@ Simulation::Simulation(const Scenario& scenario, const CarView& car, const RoadV
     for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
     throw InputError("camera \"" + camera + "\" is none of " + all);
   }
+  for (const auto& [pane, opening_m] : scenario.windows) {
+    const auto found = std::ranges::find(car.panes, pane, &PaneView::name);
+    if (found == car.panes.end()) throw InputError("windows." + pane + ": the car has no pane of that name");
+    windows_.emplace_back(static_cast<uint32_t>(found - car.panes.begin() + 1), &opening_m);
+  }
   // As if it had rained for ten minutes as it does at the start.
   water_on_road_mm_ = std::min(kMostOnRoad_mm, scenario.rain_mm_h.at(0.0) / 6.0);
   free_camera.position_m = driver_.state().position_m + glm::dvec3(-8.0, 3.0, 2.5);
@@ -193,6 +198,8 @@ void Simulation::tell() {
   cut_ = false;
   m.knots = std::move(knots_);
   knots_.clear();
+  for (const auto& [pane, opening_m] : windows_)
+    m.openings.push_back({m.time_ns, pane, 0, opening_m->at(std::max(0.0, timeS()))});
   plugin_.tell(std::move(m));
 }
 

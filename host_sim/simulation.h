@@ -108,6 +108,7 @@ class Simulation {
   int64_t prewarm_ns_ = 0;
   int64_t tick_ = -1;  // of the plugin's clock; -1: not begun
   double demister_ = 0.0;
+  std::vector<std::pair<uint32_t, const Curve*>> windows_;  // panes that slide
   std::vector<rg_wiper_knot> knots_;
   double water_on_road_mm_ = 0.0;
   double log_luminance_ = 0.0,

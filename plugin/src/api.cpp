@@ -71,12 +71,15 @@ rg_result contextLost(rg_instance* instance) {
 rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, uint32_t count, size_t stride) {
   return guarded(instance, [&](Frame& frame) {
     checkTime(time_ns, "update's time_ns");
-    checkArray(in, count, stride, sizeof(rg_sample), 1000000, "samples");
+    checkArray(in, count, stride, kFirstSize<rg_sample>, 1000000, "samples");
     std::vector<Sample> samples;
     samples.reserve(count);
     const Sample* before = frame.lastSample();
     for (uint32_t i = 0; i < count; ++i) {
-      samples.push_back(readSample(element(in, stride, i), before));
+      const rg_sample* sample = element(in, stride, i);
+      if (count > 1 && sample->struct_size > stride)
+        refuse("samples' stride is less than rg_sample.struct_size", RG_ERROR_BAD_STRUCT);
+      samples.push_back(readSample(sample, before));
       before = &samples.back();
     }
     const rg_result result = frame.update(time_ns, samples);

@@ -100,11 +100,16 @@ rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
     checkRange(info.receding_deg, 0.0, 175.0, "rg_pane_info.receding_deg");
     checkRange(info.texel_m, 0.5e-3, 20e-3, "rg_pane_info.texel_m");
     checkRange(info.max_drops, 0.0, 1e6, "rg_pane_info.max_drops");
-    checkRange(info.opening_m, 0.0, 10.0, "rg_pane_info.opening_m");
-    if (info.opening_m != 0.0)
-      refuse("rg_pane_info.opening_m: this build has no sliding windows", RG_ERROR_MISSING_FEATURE);
+    checkRange(info.opening_m, 0.0, kWidestOpening_m, "rg_pane_info.opening_m");
     checkRange(info.demister, 0.0, 1.0, "rg_pane_info.demister");
+    pane.opening_m = info.opening_m;
     pane.demister = info.demister;
+    if (finiteVector(info.slide_direction, "rg_pane_info.slide_direction") != glm::dvec3(0.0))
+      pane.slide_direction = unitVector(info.slide_direction, "rg_pane_info.slide_direction");
+    if (finiteVector(info.sill, "rg_pane_info.sill") != glm::dvec3(0.0)) {
+      checkRange(info.sill[3], -100.0, 100.0, "rg_pane_info.sill");
+      pane.sill = glm::dvec4(unitVector(info.sill, "rg_pane_info.sill"), info.sill[3]);
+    }
     pane.positions_m = positions;
     pane.uvs = uvs;
     pane.indices = {info.indices, info.index_count};

@@ -91,7 +91,17 @@ void checkRigid(const glm::dmat4& m, const char* name) {
     refuse(std::string(name) + " has a last row other than 0 0 0 1");
 }
 
-void readKnots(const rg_sample& in, Sample& out) {
+// Of each wiper or pane knots ascend, and none is after its sample.
+void checkKnotTime(int64_t time_ns, uint32_t id, const rg_sample& in, std::map<uint32_t, int64_t>& latest_ns,
+                   const std::string& name) {
+  checkTime(time_ns, name.c_str());
+  if (time_ns > in.time_ns) refuse(name + " is after its sample");
+  const auto [latest, first] = latest_ns.try_emplace(id, time_ns);
+  if (!first && latest->second > time_ns) refuse(name + " does not ascend");
+  latest->second = time_ns;
+}
+
+void readWiperKnots(const rg_sample& in, Sample& out) {
   checkArray(in.wiper_knots, in.wiper_knot_count, sizeof(rg_wiper_knot), sizeof(rg_wiper_knot), kMostKnots,
              "rg_sample.wiper_knots");
   std::map<uint32_t, int64_t> latest_ns;  // of each wiper
@@ -99,12 +109,21 @@ void readKnots(const rg_sample& in, Sample& out) {
     const rg_wiper_knot& k = in.wiper_knots[i];
     checkRange(k.angle_rad, -7.0, 7.0, "rg_wiper_knot.angle_rad");
     if (k.wiper == 0) refuse("rg_wiper_knot.wiper is 0");
-    checkTime(k.time_ns, "rg_wiper_knot.time_ns");
-    if (k.time_ns > in.time_ns) refuse("rg_wiper_knot.time_ns is after its sample");
-    const auto [latest, first] = latest_ns.try_emplace(k.wiper, k.time_ns);
-    if (!first && latest->second > k.time_ns) refuse("rg_wiper_knot.time_ns does not ascend");
-    latest->second = k.time_ns;
+    checkKnotTime(k.time_ns, k.wiper, in, latest_ns, "rg_wiper_knot.time_ns");
     out.wiper_knots.push_back({k.wiper, {k.time_ns, k.angle_rad}});
+  }
+}
+
+void readOpenings(const rg_sample& in, Sample& out) {
+  checkArray(in.opening_knots, in.opening_knot_count, sizeof(rg_opening_knot), sizeof(rg_opening_knot),
+             kMostKnots, "rg_sample.opening_knots");
+  std::map<uint32_t, int64_t> latest_ns;  // of each pane
+  for (uint32_t i = 0; i < in.opening_knot_count; ++i) {
+    const rg_opening_knot& k = in.opening_knots[i];
+    checkRange(k.opening_m, 0.0, kWidestOpening_m, "rg_opening_knot.opening_m");
+    if (k.pane == 0) refuse("rg_opening_knot.pane is 0");
+    checkKnotTime(k.time_ns, k.pane, in, latest_ns, "rg_opening_knot.time_ns");
+    out.opening_knots.push_back({k.pane, {k.time_ns, k.opening_m}});
   }
 }
 
@@ -203,7 +222,8 @@ Sample readSample(const rg_sample* in, const Sample* before) {
     out.views = before->views;
     for (ViewState& view : out.views) view.discontinuity = false;
   }
-  readKnots(s, out);
+  readWiperKnots(s, out);
+  readOpenings(s, out);
   return out;
 }
 

@@ -15,6 +15,7 @@ namespace rg {
 
 inline constexpr uint32_t kLargestStruct =
     4096;  // bytes; a struct_size above this is a mistake, not a newer header
+inline constexpr double kWidestOpening_m = 10.0;
 
 // Size of a struct in the first header that had it: hosts may still be compiled against that.
 template <typename T>
@@ -26,22 +27,31 @@ inline constexpr size_t kFirstSize<rg_wiper_info> = offsetof(rg_wiper_info, blad
 template <>
 inline constexpr size_t kFirstSize<rg_pane_info> = offsetof(rg_pane_info, demister);
 template <>
+inline constexpr size_t kFirstSize<rg_sample> = offsetof(rg_sample, opening_knots);
+template <>
 inline constexpr size_t kFirstSize<rg_lighting> = offsetof(rg_lighting, lamps_on_glass);
 template <>
 inline constexpr size_t kFirstSize<rg_rain_stats> = offsetof(rg_rain_stats, snow_mm_h);
 template <>
 inline constexpr size_t kFirstSize<rg_pane_stats> = offsetof(rg_pane_stats, dropped_s);
 
-// How much of a struct of that size is known here: as the first header or this one says; a longer one's end
+// And in one between the first and this one, where there was such.
+template <typename T>
+inline constexpr size_t kMiddleSize = kFirstSize<T>;
+template <>
+inline constexpr size_t kMiddleSize<rg_pane_info> = offsetof(rg_pane_info, slide_direction);
+
+// How much of a struct of that size is known here: as this header or one before it says; a longer one's end
 // is a later header's. Refuses sizes that fit none.
 template <typename T>
 size_t knownSize(uint32_t struct_size, const char* name) {
-  if (struct_size != kFirstSize<T> && (struct_size < sizeof(T) || struct_size > kLargestStruct)) {
+  const bool older = struct_size == kFirstSize<T> || struct_size == kMiddleSize<T>;
+  if (!older && (struct_size < sizeof(T) || struct_size > kLargestStruct)) {
     refuse(std::string(name) + ".struct_size is " + std::to_string(struct_size) + ", must be " +
                std::to_string(sizeof(T)) + " or what another header says",
            RG_ERROR_BAD_STRUCT);
   }
-  return struct_size < sizeof(T) ? kFirstSize<T> : sizeof(T);
+  return struct_size < sizeof(T) ? struct_size : sizeof(T);
 }
 
 // A struct of any ABI version; what an older one lacks is as in `preset`.

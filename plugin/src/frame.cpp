@@ -62,6 +62,7 @@ void Frame::removeVehicle(uint32_t id) {
     if (p.vehicle != id) continue;
     removeWipersOf(pane_id);
     std::erase_if(washes_, [&](const WashObject& wash) { return wash.pane == pane_id; });
+    timeline_.removeOpening(pane_id);
   }
   known |= std::erase_if(panes_, [id](const auto& p) { return p.second.vehicle == id; }) > 0;
   if (!known) refuse("there is no vehicle " + std::to_string(id), RG_ERROR_NOT_FOUND);
@@ -83,8 +84,10 @@ void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::Pan
   object.sim->setAirflow(object.airflow);
   object.fog = std::make_shared<glass::Fog>(object.sim->map());
   object.demister = info.demister;
+  object.opening_m = info.opening_m;
   if (gl_) object.sim->attachFilm();
   std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });  // the glass is another
+  timeline_.removeOpening(id);
   panes_[id] = std::move(object);
 }
 
@@ -92,6 +95,12 @@ PaneObject& Frame::pane(uint32_t id) {
   const auto found = panes_.find(id);
   if (found == panes_.end()) refuse("there is no pane " + std::to_string(id), RG_ERROR_NOT_FOUND);
   return found->second;
+}
+
+// Blades know where their glass lies: a pane with wipers stays shut.
+double Frame::openingOf_m(uint32_t id, const PaneObject& p, int64_t time_ns) const {
+  const bool wiped = std::ranges::any_of(wipers_, [id](const auto& w) { return w.second.pane == id; });
+  return wiped ? 0.0 : timeline_.openingAt(id, time_ns).value_or(p.opening_m);
 }
 
 void Frame::removeWipersOf(uint32_t pane) {
@@ -107,6 +116,7 @@ void Frame::removePane(uint32_t id) {
   pane(id);
   removeWipersOf(id);
   std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });
+  timeline_.removeOpening(id);
   panes_.erase(id);
 }
 
@@ -236,8 +246,13 @@ void Frame::seek(int64_t time_ns) {
   const std::lock_guard lock(sim_);
   if (timeline_.empty()) refuse("seek before the first update", RG_ERROR_WRONG_ORDER);
   Sample here = timeline_.last();
-  here.time_ns = time_ns;
   here.wiper_knots.clear();
+  here.opening_knots.clear();
+  for (const auto& [id, p] : panes_) {
+    if (const auto opening_m = timeline_.openingAt(id, here.time_ns))
+      here.opening_knots.push_back({id, {time_ns, *opening_m}});
+  }
+  here.time_ns = time_ns;
   timeline_.clear();
   timeline_.add(here);
   next_tick_ = tickAt(time_ns);

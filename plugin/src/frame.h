@@ -35,6 +35,7 @@ struct PaneObject {
   std::shared_ptr<glass::PaneSim> sim;
   std::shared_ptr<glass::Fog> fog;
   double demister = 0.0;
+  double opening_m = 0.0;  // until the timeline says otherwise
   std::array<float, glass::kRegions> wet_share{};
   glass::Airflow airflow;
   int64_t tick = 0;  // the pane's own count: it has no gaps where time was left out
@@ -134,8 +135,9 @@ class Frame {
   void tickGlass(const Tick& tick);
   void tickWashes(uint32_t pane, const Tick& tick, glass::PaneTick& out);
   void tickFog(PaneObject& pane, const glass::PaneTick& tick) const;
-  void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick);
+  void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick, double opening_m);
   PaneObject& pane(uint32_t id);
+  double openingOf_m(uint32_t id, const PaneObject& pane, int64_t time_ns) const;
   void removeWipersOf(uint32_t pane);
   Gl& attached();
   void syncPanes(Gl& gl);

@@ -1,6 +1,7 @@
 #include "frame_gl.h"
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "glass/wiper.h"
 #include "rain/picture.h"
@@ -45,7 +46,7 @@ glm::dmat4 worldFromVehicle(const Pose& pose) {
 
 glass::LookPane lookPane(const glass::PaneDrawn& d, const Pose& vehicle, int64_t time_ns, int64_t drops_ns) {
   glass::LookPane p;
-  p.worldFromVehicle = worldFromVehicle(vehicle);
+  p.worldFromVehicle = glm::translate(worldFromVehicle(vehicle), d.slid_m);
   p.vertex_buffer = d.vertex_buffer;
   p.index_buffer = d.index_buffer;
   p.index_count = d.index_count;
@@ -252,7 +253,9 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
       if (object == panes_.end() || object->second.sim != half.sim || !object->second.active) continue;
       const auto vehicle = timeline_.vehicleAt(object->second.vehicle, request.time_ns);
       if (!vehicle) continue;
+      half.gl->open(openingOf_m(id, object->second, request.time_ns));
       const glass::PaneDrawn drawn = half.gl->drawn();
+      if (drawn.index_count == 0) continue;
       // The pane's own count of ticks has no gaps; the world's tick it stands for is so far behind the
       // newest. After reset() the records are of a count that is no more.
       const int64_t behind = std::max<int64_t>(0, object->second.tick - drawn.drop_tick);

@@ -6,6 +6,7 @@
 
 #include "frame.h"
 #include "glass/pane_map.h"
+#include "glass/slide.h"
 #include "gravity.h"
 #include "rain/hydrometeors.h"
 
@@ -119,7 +120,8 @@ void Frame::tickGlass(const Tick& tick) {
     const glm::dvec3 wind_mps = vehicleFromWorld * tick.weather.wind_mps;
     for (uint32_t i = 0; i < class_count_; ++i)
       t.classes[i].drift_mps = (wind_profile_.drop_share[class_of_[i]] - wind_profile_.air_share) * wind_mps;
-    if (p.tick % kShelterTicks == 1) updateShelter(p, *vehicle, tick);
+    t.opening_m = openingOf_m(id, p, tick.time_ns);
+    if (p.tick % kShelterTicks == 1) updateShelter(p, *vehicle, tick, t.opening_m);
     t.wet_share = p.wet_share;
     for (const WiperMotion& w : tick.wipers) {
       const auto known = wipers_.find(w.wiper);
@@ -161,14 +163,15 @@ void Frame::tickWashes(uint32_t pane, const Tick& tick, glass::PaneTick& out) {
 // Each region of the pane looks up along the way its rain comes: the mean drop's, against the wind. The
 // pane's own car gives it no shelter: its cabin lies right behind the glass, and its roof is over it only
 // where the glass faces down.
-void Frame::updateShelter(PaneObject& p, const VehicleState& vehicle, const Tick& tick) {
+void Frame::updateShelter(PaneObject& p, const VehicleState& vehicle, const Tick& tick, double opening_m) {
+  const glm::dvec3 slid_m = opening_m * p.sim->slide().direction();
   const double fall_mps = glass_fall_mps_;
   const glm::dvec3 drop_mps =
       wind_profile_.dropShare(fall_mps) * tick.weather.wind_mps - glm::dvec3(0.0, 0.0, fall_mps);
   for (int region = 0; region < glass::kRegions; ++region) {
     const auto centre = p.sim->map().regionCentre(region);
     if (!centre) continue;
-    const glm::dvec3 at = vehicle.pose.position_m + vehicle.pose.orientation * *centre;
+    const glm::dvec3 at = vehicle.pose.position_m + vehicle.pose.orientation * (*centre + slid_m);
     p.wet_share[static_cast<size_t>(region)] = field_.openToSky(at, drop_mps, p.vehicle) ? 1.0f : 0.0f;
   }
 }

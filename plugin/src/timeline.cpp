@@ -83,26 +83,26 @@ double shareBetween(const Sample& a, const Sample& b, int64_t time_ns) {
   return static_cast<double>(time_ns - a.time_ns) / static_cast<double>(b.time_ns - a.time_ns);
 }
 
-double angleAt(const std::vector<WiperKnot>& knots, int64_t time_ns) {
-  const auto after = std::ranges::lower_bound(knots, time_ns, {}, &WiperKnot::time_ns);
-  if (after == knots.begin()) return after->angle_rad;
-  const WiperKnot& before = *std::prev(after);
-  if (after == knots.end()) return before.angle_rad;
+double valueAt(const std::vector<Knot>& knots, int64_t time_ns) {
+  const auto after = std::ranges::lower_bound(knots, time_ns, {}, &Knot::time_ns);
+  if (after == knots.begin()) return after->value;
+  const Knot& before = *std::prev(after);
+  if (after == knots.end()) return before.value;
   const double s =
       static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after->time_ns - before.time_ns);
-  return std::lerp(before.angle_rad, after->angle_rad, s);
+  return std::lerp(before.value, after->value, s);
 }
 
 // The angle farthest outside of [from, to] that a knot inside the tick reaches: where the blade turned round.
-double extremeBetween(const std::vector<WiperKnot>& knots, int64_t begin_ns, int64_t end_ns, double from,
+double extremeBetween(const std::vector<Knot>& knots, int64_t begin_ns, int64_t end_ns, double from,
                       double to) {
   double extreme = to, reach = 0.0;
-  for (auto k = std::ranges::upper_bound(knots, begin_ns, {}, &WiperKnot::time_ns);
+  for (auto k = std::ranges::upper_bound(knots, begin_ns, {}, &Knot::time_ns);
        k != knots.end() && k->time_ns < end_ns; ++k) {
-    const double outside = std::max(k->angle_rad - std::max(from, to), std::min(from, to) - k->angle_rad);
+    const double outside = std::max(k->value - std::max(from, to), std::min(from, to) - k->value);
     if (outside > reach) {
       reach = outside;
-      extreme = k->angle_rad;
+      extreme = k->value;
     }
   }
   return extreme;
@@ -140,15 +140,20 @@ void Timeline::add(const Sample& sample) {
       v.discontinuity = false;
     });
   }
-  for (const auto& [wiper, knot] : added.wiper_knots) {
-    std::vector<WiperKnot>& knots = knots_[wiper];
+  addKnots(added.wiper_knots, wiper_knots_);
+  addKnots(added.opening_knots, opening_knots_);
+  samples_.push_back(std::move(added));
+}
+
+void Timeline::addKnots(const std::vector<std::pair<uint32_t, Knot>>& added, Knots& to) {
+  for (const auto& [id, knot] : added) {
+    std::vector<Knot>& knots = to[id];
     if (!knots.empty() && knots.back().time_ns >= knot.time_ns) {
       if (knots.back().time_ns == knot.time_ns) knots.back() = knot;
       continue;
     }
     knots.push_back(knot);
   }
-  samples_.push_back(std::move(added));
 }
 
 std::pair<const Sample*, const Sample*> Timeline::around(int64_t time_ns) const {
@@ -172,9 +177,15 @@ std::optional<VehicleState> Timeline::vehicleAt(uint32_t id, int64_t time_ns) co
 }
 
 std::optional<double> Timeline::wiperAngleAt(uint32_t wiper, int64_t time_ns) const {
-  const auto found = knots_.find(wiper);
-  if (found == knots_.end() || found->second.empty()) return std::nullopt;
-  return angleAt(found->second, time_ns);
+  const auto found = wiper_knots_.find(wiper);
+  if (found == wiper_knots_.end() || found->second.empty()) return std::nullopt;
+  return valueAt(found->second, time_ns);
+}
+
+std::optional<double> Timeline::openingAt(uint32_t pane, int64_t time_ns) const {
+  const auto found = opening_knots_.find(pane);
+  if (found == opening_knots_.end() || time_ns < found->second.front().time_ns) return std::nullopt;
+  return valueAt(found->second, time_ns);
 }
 
 const Tick& Timeline::tick(int64_t index) {
@@ -186,8 +197,8 @@ const Tick& Timeline::tick(int64_t index) {
   views_.clear();
   for (const ViewState& v : b->views) views_.push_back(viewBetween(*a, v, s));
   wipers_.clear();
-  for (const auto& [wiper, knots] : knots_) {
-    const double from = angleAt(knots, begin_ns), to = angleAt(knots, end_ns);
+  for (const auto& [wiper, knots] : wiper_knots_) {
+    const double from = valueAt(knots, begin_ns), to = valueAt(knots, end_ns);
     wipers_.push_back({wiper, from, extremeBetween(knots, begin_ns, end_ns, from, to), to});
   }
   WeatherState weather = between(a->weather, b->weather, s);
@@ -201,8 +212,13 @@ void Timeline::prune(int64_t index) {
   const int64_t oldest_ns = tickTimeNs(index) - 1'000'000'000;
   const auto keep = std::ranges::upper_bound(samples_, oldest_ns, {}, &Sample::time_ns);
   if (keep - samples_.begin() > 1) samples_.erase(samples_.begin(), std::prev(keep));
-  for (auto& [wiper, knots] : knots_) {
-    const auto kept = std::ranges::upper_bound(knots, oldest_ns, {}, &WiperKnot::time_ns);
+  pruneKnots(oldest_ns, wiper_knots_);
+  pruneKnots(oldest_ns, opening_knots_);
+}
+
+void Timeline::pruneKnots(int64_t oldest_ns, Knots& all) {
+  for (auto& [id, knots] : all) {
+    const auto kept = std::ranges::upper_bound(knots, oldest_ns, {}, &Knot::time_ns);
     if (kept - knots.begin() > 1) knots.erase(knots.begin(), std::prev(kept));
   }
 }
@@ -211,11 +227,13 @@ void Timeline::removeVehicle(uint32_t id) {
   for (Sample& s : samples_) std::erase_if(s.vehicles, [id](const VehicleState& v) { return v.id == id; });
 }
 
-void Timeline::removeWiper(uint32_t id) { knots_.erase(id); }
+void Timeline::removeWiper(uint32_t id) { wiper_knots_.erase(id); }
+void Timeline::removeOpening(uint32_t pane) { opening_knots_.erase(pane); }
 
 void Timeline::clear() {
   samples_.clear();
-  knots_.clear();
+  wiper_knots_.clear();
+  opening_knots_.clear();
 }
 
 void Timeline::rebase(const glm::dvec3& shift_m) {

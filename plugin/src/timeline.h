@@ -12,9 +12,10 @@
 
 namespace rg {
 
-struct WiperKnot {
+// A value at a time: a wiper's angle in rad, a window's opening in m.
+struct Knot {
   int64_t time_ns = 0;
-  double angle_rad = 0.0;
+  double value = 0.0;
 };
 
 // A sample as the plugin keeps it. Vehicles and views are in the order of their ids.
@@ -23,7 +24,7 @@ struct Sample {
   WeatherState weather;
   std::vector<VehicleState> vehicles;
   std::vector<ViewState> views;
-  std::vector<std::pair<uint32_t, WiperKnot>> wiper_knots;
+  std::vector<std::pair<uint32_t, Knot>> wiper_knots, opening_knots;
 };
 
 // Inputs between samples are linear (poses: position linear, orientation slerp); beyond the last one bodies
@@ -51,11 +52,14 @@ class Timeline {
   std::optional<VehicleState> vehicleAt(uint32_t id, int64_t time_ns) const;
   // A wiper's angle, held before the first knot and after the last; none when it never had a knot.
   std::optional<double> wiperAngleAt(uint32_t wiper, int64_t time_ns) const;
+  // How far a window has slid, held after the last knot; none before the first.
+  std::optional<double> openingAt(uint32_t pane, int64_t time_ns) const;
 
   // Forgets what no tick from `index` on and no picture less than a second old can ask for.
   void prune(int64_t index);
   void removeVehicle(uint32_t id);
   void removeWiper(uint32_t id);
+  void removeOpening(uint32_t pane);
   void clear();
   // All positions become p - shift.
   void rebase(const glm::dvec3& shift_m);
@@ -66,7 +70,11 @@ class Timeline {
   Gusts gusts_;
   bool by_temperature_ = false;
   std::vector<Sample> samples_;  // ascending
-  std::map<uint32_t, std::vector<WiperKnot>> knots_;
+  using Knots = std::map<uint32_t, std::vector<Knot>>;
+  static void addKnots(const std::vector<std::pair<uint32_t, Knot>>& added, Knots& to);
+  static void pruneKnots(int64_t oldest_ns, Knots& knots);
+
+  Knots wiper_knots_, opening_knots_;
   Tick tick_;
   std::vector<VehicleState> vehicles_;
   std::vector<ViewState> views_;

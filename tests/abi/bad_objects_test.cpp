@@ -144,8 +144,12 @@ TEST_F(BadObjects, panesThatAreNoPanes) {
   refused("an angle past a half turn", "advancing_deg", [](Pane& p) { p.info.advancing_deg = 181.0; });
   refused("a negative angle", "receding_deg", [](Pane& p) { p.info.receding_deg = -1.0; });
   refused("more drops than can be", "max_drops", [](Pane& p) { p.info.max_drops = 0xFFFFFFFF; });
-  refused(
-      "an open window", "opening_m", [](Pane& p) { p.info.opening_m = 0.1; }, RG_ERROR_MISSING_FEATURE);
+  refused("a window open above its frame", "opening_m", [](Pane& p) { p.info.opening_m = -0.1; });
+  refused("a slide of no length", "slide_direction", [](Pane& p) { p.info.slide_direction[2] = -0.1; });
+  refused("a slide through the glass", "spoilt", [](Pane& p) { p.info.slide_direction[0] = 1.0; });
+  refused("a sill of no length", "sill", [](Pane& p) { p.info.sill[2] = -0.1; });
+  refused("a sill at no place", "sill", [](Pane& p) { p.info.sill[2] = -1.0, p.info.sill[3] = kNaN; });
+  refused("a sill along the way", "spoilt", [](Pane& p) { p.info.sill[1] = 1.0; });
   refused("more than all of the demister", "rg_pane_info.demister", [](Pane& p) { p.info.demister = 1.5; });
   refused("a demister of no number", "rg_pane_info.demister", [](Pane& p) { p.info.demister = kNaN; });
   refused("a window open by no number", "opening_m", [](Pane& p) { p.info.opening_m = kNaN; });

@@ -188,11 +188,11 @@ TEST(Scenario, allThatAreShippedLoad) {
 }
 
 TEST(Scenario, changesFromTheCommandLineReachIt) {
-  const Scenario s =
-      loadScenario("drive",
-                   {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off",
-                    "plugin.rain.gain=2", "glass=new_coating", "white_cd_m2=5000", "shelter=false"},
-                   RG_SOURCE_DIR);
+  const Scenario s = loadScenario(
+      "drive",
+      {"weather.rain_mm_h=12.5", "seconds=3", "camera=outside", "wipers=off", "plugin.rain.gain=2",
+       "glass=new_coating", "white_cd_m2=5000", "shelter=false", "windows.rear=[[1, 0], [3, 0.2]]"},
+      RG_SOURCE_DIR);
   EXPECT_EQ(s.rain_mm_h.at(0.0), 12.5);
   EXPECT_EQ(s.seconds, 3.0);
   EXPECT_EQ(s.camera, "outside");
@@ -202,6 +202,9 @@ TEST(Scenario, changesFromTheCommandLineReachIt) {
   EXPECT_EQ(wiperModeAt(s, 30.0), WiperMode::off);
   ASSERT_EQ(s.parameters.size(), 1U);
   EXPECT_EQ(s.parameters[0].first, "rain.gain");
+  ASSERT_EQ(s.windows.size(), 1U);
+  EXPECT_EQ(s.windows[0].first, "rear");
+  EXPECT_EQ(s.windows[0].second.at(2.0), 0.1);
 }
 
 TEST(Scenario, wrongInputIsNamedInOneLine) {
@@ -224,6 +227,8 @@ TEST(Scenario, wrongInputIsNamedInOneLine) {
                                                         {"wipers=3", "wipers"},
                                                         {"glass=jam", "glass"},
                                                         {"seconds=-4", "seconds"},
+                                                        {"windows.rear=2", "windows.rear"},
+                                                        {"windows=1", "windows"},
                                                         {"white_cd_m2=0", "white_cd_m2"},
                                                         {"drive=5", "drive"},
                                                         {"drive.stops=[[1]]", "stops"},

@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 3u
+#define RG_ABI_MINOR 4u
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -198,6 +198,15 @@ typedef struct rg_wiper_knot {
   double angle_rad;
 } rg_wiper_knot;
 
+/* Fixed. How far a window has slid at a time, since minor 4. Linear between knots; as of the last after it.
+ */
+typedef struct rg_opening_knot {
+  int64_t time_ns;
+  uint32_t pane;
+  uint32_t reserved;
+  double opening_m; /* 0 .. 10 */
+} rg_opening_knot;
+
 /* All inputs at one moment. update() interpolates linearly between samples; the state at a tick depends on
  * the samples and never on how time was cut into updates. Give samples at your simulation's own fixed ticks
  * and the whole is reproducible. */
@@ -214,6 +223,11 @@ typedef struct rg_sample {
   uint32_t view_count;
   uint32_t wiper_knot_count;
   const rg_wiper_knot* wiper_knots; /* ascending in time for each wiper, not after time_ns */
+  /* Since minor 4. */
+  const rg_opening_knot* opening_knots; /* ascending in time for each pane, not after time_ns; those of
+                                           unknown panes do nothing */
+  uint32_t opening_knot_count;
+  uint32_t reserved;
 } rg_sample;
 
 /* A convex volume of air that rain does not reach: below a roof, in a tunnel, a car's cabin. Give vertices
@@ -246,7 +260,11 @@ typedef struct rg_pane_info {
   uint32_t vehicle; /* > 0 */
   const char* name;
   const float* positions_m; /* vehicle frame, xyz */
-  const float* uvs;         /* one chart without overlap, any scale */
+  const float* uvs;         /* without overlap, any scale. One chart whose lengths are a quarter off their mean
+                               at most is the pane's own grid. Where it has seams (vertices at one place with
+                               several uvs) or is less even, the mesh is laid flat anew, true to length as far
+                               as can be: then seams and uvs change nothing. With seams it must not turn by
+                               more than a right angle from its mean */
   const uint32_t* indices;  /* triangles */
   uint32_t vertex_count;
   uint32_t index_count;
@@ -259,10 +277,21 @@ typedef struct rg_pane_info {
   double texel_m;        /* size of a film cell; 0.5e-3 .. 20e-3; default 3e-3 */
   uint32_t max_drops;    /* 0 = no drops at all: the film alone; default 20000 */
   uint32_t film_enabled; /* default 1 */
-  double opening_m;      /* how far a window has slid down; other than 0: missing feature in this build */
+  double opening_m;      /* how far a window has slid, 0 (default) .. 10, until rg_sample.opening_knots say
+                            else. Its glass goes straight along slide_direction, and its water with it; what
+                            is behind the sill is not rained on, not blown over and not drawn. What goes there
+                            the seal strips of its water, which counts as drained, and it comes back dry. The
+                            cabin's volume, which keeps rain out of the gap, stays yours. A pane with wipers
+                            stays shut */
   /* Since minor 3. */
   double demister; /* how much of the demister's air blows up the inner side from the lower edge: 0 (default)
                       none .. 1 a windscreen's share. See parameters fog.* */
+  /* Since minor 4. */
+  double slide_direction[3]; /* unit, vehicle frame, within 45 degrees of the glass; 0 (default): down along
+                                it, of a level pane backward */
+  double sill[4];            /* nx, ny, nz, d, vehicle frame: glass is before the sill where n . p <= d; unit
+                                normal, not across slide_direction; 0 (default): the pane's edge farthest
+                                along slide_direction, as it lies when shut */
 } rg_pane_info;
 
 typedef struct rg_wiper_info {
@@ -458,7 +487,7 @@ typedef struct rg_parameter {
 } rg_parameter;
 
 /* Fixed. A drop placed on a pane: spherical cap on the outer face. The pane's middle is that of its uvs'
- * extent. */
+ * extent, or of the mesh laid flat (see rg_pane_info.uvs). */
 typedef struct rg_glass_drop {
   double u_m;               /* to the right of the pane's middle, seen from inside, looking out */
   double v_m;               /* up the pane from its middle */

@@ -53,14 +53,20 @@ void ForceField::setAirflow(Airflow airflow) {
   acceleration_mps2_ = glm::dvec3(1e300);  // no tick's: the next is made anew
 }
 
-void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps) {
-  if (!nodes_.empty() && acceleration_mps2 == acceleration_mps2_ && air_mps == air_mps_) return;
+void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps,
+                      const glm::dvec3& slid_m) {
+  if (!nodes_.empty() && acceleration_mps2 == acceleration_mps2_ && air_mps == air_mps_ && slid_m == slid_m_)
+    return;
   acceleration_mps2_ = acceleration_mps2;
   air_mps_ = air_mps;
+  slid_m_ = slid_m;
+  const glm::dvec2 slid = map.acrossAndHeight(slid_m);
   nodes_.resize(map.nodes().size());
   most_acceleration_mps2_ = most_air_mps_ = 0.0;
   for (size_t i = 0; i < nodes_.size(); ++i) {
-    const PaneNode& node = map.nodes()[i];
+    PaneNode node = map.nodes()[i];
+    node.across = std::clamp(node.across + slid.x, -1.0, 1.0);
+    node.height = std::clamp(node.height + slid.y, 0.0, 1.0);
     nodes_[i].acceleration = glm::vec2(PaneMap::alongGlass(node, acceleration_mps2));
     nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps, airflow_)));
     most_acceleration_mps2_ =

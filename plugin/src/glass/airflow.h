@@ -44,7 +44,9 @@ struct Push {
 // Fields of one tick.
 class ForceField {
  public:
-  void make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps);
+  // Air runs over the car as it does, wherever a window has slid to.
+  void make(const PaneMap& map, const glm::dvec3& acceleration_mps2, const glm::dvec3& air_mps,
+            const glm::dvec3& slid_m = glm::dvec3(0.0));
   void setAirflow(Airflow airflow);  // of the next make()
   void clear() { nodes_.clear(); }   // the airflow stays
   Push at(const PaneMap& map, glm::dvec2 grid_m) const;
@@ -63,7 +65,7 @@ class ForceField {
   };
   Airflow airflow_;
   std::vector<NodePush> nodes_;
-  glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0};
+  glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0}, slid_m_{0.0};
   double most_acceleration_mps2_ = 0.0, most_air_mps_ = 0.0;
 };
 

@@ -136,6 +136,15 @@ int64_t Drops::remove(int slot) {
   return std::exchange(drop.volume_pl, 0);
 }
 
+int64_t Drops::removeHidden() {
+  int64_t sum_pl = 0;
+  for (size_t slot = 0; slot < slots_.items.size(); ++slot) {
+    const Drop& drop = slots_.items[slot];
+    if (drop.volume_pl > 0 && !map_.shown(drop.texel)) sum_pl += remove(static_cast<int>(slot));
+  }
+  return sum_pl;
+}
+
 int64_t Drops::cut(int slot, int64_t keep_pl) {
   if (keep_pl < kLeastDrop_pl) return remove(slot);
   Drop& drop = slots_.items[static_cast<size_t>(slot)];

@@ -75,6 +75,8 @@ class Drops {
   void give(const DropWorld& world, const Taker& taker, int64_t volume_pl);
   // Removes a drop and says how much it was.
   int64_t remove(int slot);
+  // Removes those behind the sill and says how much they were.
+  int64_t removeHidden();
   // Takes all of a drop but `keep_pl` and says how much that was; nothing worth a drop is kept.
   int64_t cut(int slot, int64_t keep_pl);
 

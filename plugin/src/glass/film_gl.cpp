@@ -23,9 +23,9 @@ struct UploadLayout {
   explicit UploadLayout(const FilmOrder& order) {
     info = next(sizeof(shared::FilmStepInfo));
     drive = next(order.drive.size() * sizeof(shared::vec4));
-    changes =
-        next((order.takes.size() + order.adds.size() + order.bead_adds.size() + order.ridge_adds.size()) *
-             sizeof(shared::FilmChange));
+    changes = next((order.takes.size() + order.slid.size() + order.adds.size() + order.bead_adds.size() +
+                    order.ridge_adds.size()) *
+                   sizeof(shared::FilmChange));
     ranges = next(order.sweep_ranges.size() * sizeof(shared::SweptRange));
     leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
     texels = next(order.leave_texels.size() * sizeof(int));
@@ -154,8 +154,9 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
       dry_ = false;
       watered_step_ = orders[i].step;
     }
-    if (!dry_) runStep(orders[i], change_counts[i], *batch, starts[i], i * report.bytes);
-    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, dry_});
+    const bool asleep = dry_ && orders[i].slid.empty();
+    if (!asleep) runStep(orders[i], change_counts[i], *batch, starts[i], i * report.bytes);
+    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, asleep});
   }
   gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -163,10 +164,12 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
   pending_.push_back(std::move(batch));
 }
 
-// What happens to a texel in a step comes together: what is taken from it, then what it is given.
+// What happens to a texel in a step comes together: what is taken from it, then what it is given. Off the
+// glass a texel holds -1: so much less goes to one that is hidden, so much more to one that is shown again.
 std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
   std::vector<shared::FilmChange> changes;
-  changes.reserve(order.takes.size() + order.adds.size() + order.bead_adds.size() + order.ridge_adds.size());
+  changes.reserve(order.takes.size() + order.slid.size() + order.adds.size() + order.bead_adds.size() +
+                  order.ridge_adds.size());
   const auto of = [&](int texel) -> shared::FilmChange& {
     int& known = change_of_[static_cast<size_t>(texel)];
     if (known < 0) {
@@ -180,7 +183,8 @@ std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
     change.share_65536 = take.share_65536;
     change.take = static_cast<int>(&take - order.takes.data());
   }
-  for (const shared::FilmAdd& add : order.adds) of(add.texel).added_pl = add.volume_pl;
+  for (const SlidTexel& slid : order.slid) of(slid.texel).added_pl = slid.shown ? 1 : -1;
+  for (const shared::FilmAdd& add : order.adds) of(add.texel).added_pl += add.volume_pl;
   for (const shared::BeadAdd& add : order.bead_adds) {
     shared::FilmChange& change = of(add.texel);
     change.beads_pl = add.volume_pl;

@@ -69,7 +69,7 @@ void FilmLink::clear() {
 
 void FilmLink::add(int texel, int64_t volume_pl) {
   if (volume_pl <= 0) return;
-  if (!attached_) {
+  if (!attached_ || !map_.shown(texel)) {
     ledger_.drained_pl += volume_pl;
     return;
   }
@@ -84,7 +84,7 @@ void FilmLink::add(int texel, int64_t volume_pl) {
 
 void FilmLink::addBeads(int texel, int64_t volume_pl, int number) {
   if (volume_pl <= 0) return;
-  if (!attached_) {
+  if (!attached_ || !map_.shown(texel)) {
     ledger_.drained_pl += volume_pl;
     return;
   }

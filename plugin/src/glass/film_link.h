@@ -21,6 +21,8 @@ struct Taker {
   int texel = 0;
 };
 
+inline constexpr uint32_t kSeal = UINT32_MAX;  // a taker's slot that is no drop's: the seal of a sill
+
 // Texels about a place.
 struct Footprint {
   static constexpr int kFarthest = 8;
@@ -50,6 +52,12 @@ class FilmLink {
   void spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl);
   // Asks for a share of what is on a texel; the report brings it. The first to ask in a step gets it.
   void take(int texel, double share, uint32_t slot, uint32_t life);
+  // A texel goes behind the sill or comes back from there, in the first tick of a step. It must hold nothing
+  // by then: what is on it the seal takes, and that is drained.
+  void slide(int texel, bool shown) { order_.slid.push_back({texel, shown}); }
+  void strip(int texel) { take(texel, 1.0, kSeal, 0); }
+  // A ridge was put down since the last step closed: texels it lies on cannot be hidden in this one.
+  bool leaving() const { return !order_.leaves.empty(); }
   void addToRidge(int segment, int64_t volume_pl);
   // A blade sweeps what lies in `ranges` of its list: one for each piece, and as often as a texel may be met.
   void sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept,

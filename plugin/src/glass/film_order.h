@@ -27,12 +27,19 @@ struct SweepOrder {
   bool backwards = false;  // towards lesser angles
 };
 
-// Order of work in a step: takes, adds of film and of beads, ridge adds, sweeps one after the other, leaves,
-// flow.
+// A texel that a window's sill hides from now on, or shows again, dry.
+struct SlidTexel {
+  int texel;
+  bool shown;
+};
+
+// Order of work in a step: takes, what slides, adds of film and of beads, ridge adds, sweeps one after the
+// other, leaves, flow.
 struct FilmOrder {
   int64_t step = -1;
   bool clear = false;  // no step: the film is to be dry
   std::vector<shared::FilmTake> takes;
+  std::vector<SlidTexel> slid;
   std::vector<shared::FilmAdd> adds;
   std::vector<shared::BeadAdd> bead_adds;  // no texel twice, as in the others
   std::vector<shared::RidgeAdd> ridge_adds;

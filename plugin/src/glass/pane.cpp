@@ -11,6 +11,7 @@
 #include "glass/film_link.h"
 #include "glass/impact.h"
 #include "glass/random.h"
+#include "glass/slide.h"
 #include "glass/washer.h"
 #include "shared/glass_beads.glsl"
 #include "tick.h"
@@ -18,9 +19,10 @@
 namespace rg::glass {
 namespace {
 
-constexpr uint32_t kWashStream = 1000;        // beyond the rain's size classes
-constexpr uint32_t kRoundSeed = 0;            // the look draws it with a round outline
-constexpr size_t kMostWaiting = 4 * kTickHz;  // ticks; more is a stall
+constexpr uint32_t kWashStream = 1000;            // beyond the rain's size classes
+constexpr uint32_t kRoundSeed = 0;                // the look draws it with a round outline
+constexpr size_t kMostWaiting = 4 * kTickHz;      // ticks; more is a stall
+constexpr size_t kMostStripped = kMostTakes / 2;  // texels in a film step; the rest in the next
 
 Surface surfaceFor(const PaneInfo& info) {
   Surface surface = surfaceOf(info.glass);
@@ -61,7 +63,8 @@ struct PaneSim::State {
         film_enabled(info.film_enabled),
         surface(surfaceFor(info)),
         map(info),
-        mesh(info),
+        mesh(info, map),
+        slide(info, map),
         film(map, ledger),
         drops(map, surface, info.max_drops),
         craters(map) {}
@@ -80,6 +83,7 @@ struct PaneSim::State {
   void runWaiting();
   void leaveOutATick();
   void run(const PaneTick& tick);
+  void slideWindow();
   void useReport();
   void catchRain();
   void wash(const Washing& washing, uint32_t number);
@@ -95,6 +99,8 @@ struct PaneSim::State {
   Surface surface;
   PaneMap map;
   PaneMesh mesh;
+  Slide slide;
+  size_t slid = 0, slid_on_film = 0;  // texels behind the sill, of slide's order; of which the film knows
   Ledger ledger;
   FilmLink film;
   Drops drops;
@@ -114,7 +120,8 @@ void PaneSim::State::run(const PaneTick& tick) {
   now = tick;
   ++ticks;
   snapshot.reset();
-  forces.make(map, tick.acceleration_mps2, tick.air_mps);
+  if (ticks % kTicksPerFilmStep == 1) slideWindow();
+  forces.make(map, tick.acceleration_mps2, tick.air_mps, tick.opening_m * slide.direction());
   if (ticks % kTicksPerFilmStep == 0) useReport();
   catchRain();
   for (uint32_t i = 0; i < tick.washing_count; ++i) wash(tick.washings[i], i);
@@ -124,6 +131,28 @@ void PaneSim::State::run(const PaneTick& tick) {
   for (uint32_t i = 0; i < tick.wiper_count; ++i) blades.stroke(shared_world, drops, tick.wipers[i]);
   drops.age(shared_world);
   if (ticks % kTicksPerFilmStep == 0) closeFilmStep();
+}
+
+// In the first tick of a film step, before all that happens in it. The seal strips what goes behind the sill:
+// that water runs off there, as what runs down to the sill does, and counts with it as drained.
+void PaneSim::State::slideWindow() {
+  if (film.leaving()) return;
+  const size_t last = slid;
+  slid = slide.goneAt(map, now.opening_m);
+  const bool dry = ledger.caught_pl == 0;
+  if (film.attached() && !dry) slid = std::min(slid, last + kMostStripped);
+  std::vector<int> texels;
+  for (size_t i = std::min(last, slid); i < std::max(last, slid); ++i) texels.push_back(slide.texel(map, i));
+  if (!texels.empty()) map.show(texels, slid < last);
+  if (film.attached()) {
+    for (size_t i = slid; i < slid_on_film; ++i) film.slide(slide.texel(map, i), true);
+    for (size_t i = slid_on_film; i < slid; ++i) {
+      if (i >= last && !dry) film.strip(slide.texel(map, i));
+      film.slide(slide.texel(map, i), false);
+    }
+    slid_on_film = slid;
+  }
+  if (slid > last) ledger.drained_pl += drops.removeHidden();
 }
 
 void PaneSim::State::catchRain() {
@@ -141,10 +170,12 @@ void PaneSim::State::wash(const Washing& washing, uint32_t number) {
   constexpr int64_t kParcels = 16;
   constexpr double kSpread_m = 6e-3;  // unsourced
   Stream random(seed, id, static_cast<uint64_t>(now.index), kWashStream + number);
-  ledger.caught_pl += washing.volume_pl;
   for (int64_t k = 0; k < kParcels; ++k) {
     const int64_t volume_pl = washing.volume_pl * (k + 1) / kParcels - washing.volume_pl * k / kParcels;
-    const glm::dvec2 place = map.middleOf(washing.jet->texelAt(random.unit()));
+    const int texel = washing.jet->texelAt(random.unit());
+    if (!map.shown(texel)) continue;
+    ledger.caught_pl += volume_pl;
+    const glm::dvec2 place = map.middleOf(texel);
     film.spread(place, forces.at(map, place).metres, kSpread_m, volume_pl);
   }
 }
@@ -155,7 +186,12 @@ void PaneSim::State::useReport() {
   std::vector<Taker> takers;
   if (!film.use(stepUsedBy(ticks), report, takers)) return;
   const DropWorld shared_world = world();
-  for (size_t i = 0; i < takers.size(); ++i) drops.give(shared_world, takers[i], report.taken_pl[i]);
+  for (size_t i = 0; i < takers.size(); ++i) {
+    if (takers[i].slot == kSeal)
+      ledger.drained_pl += report.taken_pl[i];
+    else
+      drops.give(shared_world, takers[i], report.taken_pl[i]);
+  }
   for (const shared::FilmTile& tile : report.tiles) {
     if (tile.event_texel < 0 || tile.event_pl <= 0) continue;
     const uint32_t h =
@@ -262,6 +298,7 @@ PaneSim::~PaneSim() = default;
 
 const PaneMap& PaneSim::map() const { return state_->map; }
 const PaneMesh& PaneSim::mesh() const { return state_->mesh; }
+const Slide& PaneSim::slide() const { return state_->slide; }
 const std::string& PaneSim::name() const { return state_->name; }
 
 void PaneSim::setWiper(uint32_t id, const WiperInfo& info) {
@@ -303,6 +340,7 @@ void PaneSim::reset() {
   state_->drops.clear();
   state_->craters.clear();
   state_->film.clear();
+  state_->slid_on_film = 0;
   state_->blades.clear();
   state_->ledger = {};
   state_->forces.clear();
@@ -376,7 +414,9 @@ uint64_t PaneSim::hash() const {
 
 void PaneSim::attachFilm() {
   const std::lock_guard lock(state_->mutex);
-  if (state_->film_enabled) state_->film.attach();
+  if (!state_->film_enabled || state_->film.attached()) return;
+  state_->film.attach();
+  state_->slid_on_film = 0;
 }
 
 void PaneSim::detachFilm() {

@@ -20,6 +20,7 @@ namespace rg::glass {
 
 class PaneMap;
 struct PaneMesh;
+class Slide;
 class Drops;
 struct FilmOrder;
 struct FilmReport;
@@ -31,7 +32,7 @@ struct PaneInfo {
   std::string name;
   std::span<const glm::vec3>
       positions_m;                 // vehicle frame; triangles counter-clockwise seen from the wet, outer side
-  std::span<const glm::vec2> uvs;  // one chart without overlap, any scale
+  std::span<const glm::vec2> uvs;  // without overlap, any scale; in one even chart, or see chart.h
   std::span<const uint32_t> indices;
   Glass glass = Glass::uncoated;
   double advancing_rad = 0.0;  // 0 = the preset's
@@ -39,7 +40,11 @@ struct PaneInfo {
   double texel_m = 3e-3;
   uint32_t max_drops = 20000;  // 0: the film alone
   bool film_enabled = true;
-  double demister = 0.0;  // share of its air that blows up the inner side
+  double demister = 0.0;   // share of its air that blows up the inner side
+  double opening_m = 0.0;  // how far a window has slid before it is told otherwise
+  // Of a window that slides, see slide.h. 0: down its own surface; its lower edge.
+  glm::dvec3 slide_direction{0.0};  // unit
+  glm::dvec4 sill{0.0};             // n, d: glass is seen where n . p <= d
 };
 
 struct WiperInfo {
@@ -104,6 +109,7 @@ struct PaneTick {
   std::array<WiperStroke, shared::kMaxGlassWipers> wipers{};
   uint32_t washing_count = 0;
   std::array<Washing, kMostWashings> washings{};
+  double opening_m = 0.0;  // how far a window has slid; 0 while it has wipers
 };
 
 struct PlacedDrop {
@@ -153,8 +159,9 @@ class PaneSim {
   PaneSim(const PaneSim&) = delete;
   PaneSim& operator=(const PaneSim&) = delete;
 
-  const PaneMap& map() const;  // immutable after construction
+  const PaneMap& map() const;  // but for what is shown of it, immutable after construction
   const PaneMesh& mesh() const;
+  const Slide& slide() const;  // where it slides to never changes
   const std::string& name() const;
 
   // At most kMaxGlassWipers; throws std::invalid_argument. Setting an id again replaces it; its ridge's water

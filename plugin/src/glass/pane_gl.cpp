@@ -1,8 +1,11 @@
 #include "glass/pane_gl.h"
 
+#include <optional>
+
 #include "gl/objects.h"
 #include "glass/film_gl.h"
 #include "glass/pane_map.h"
+#include "glass/slide.h"
 
 namespace rg::glass {
 namespace {
@@ -86,20 +89,23 @@ struct PaneGl::Parts {
       : gl(context),
         sim(std::move(pane)),
         film(gl, std::move(programs), sim->map()),
-        maps(makeMaps(gl, sim->map())),
-        vertices(gl, std::span<const float>(gridVertices(sim->mesh(), sim->map().grid()))),
-        indices(gl, std::span<const uint32_t>(sim->mesh().indices)) {}
+        maps(makeMaps(gl, sim->map())) {
+    open(0.0);
+  }
 
   void run(bool wait_for_all);
   void uploadDrops();
   template <class Record>
   void upload(gl::Buffer& to, const std::vector<Record>& records) const;
+  void open(double to_m);
 
   const GladGLContext& gl;
   std::shared_ptr<PaneSim> sim;
   FilmGl film;
   Maps maps;
   gl::Buffer vertices, indices, drops, craters;
+  size_t index_count = 0;
+  std::optional<double> opening_m;  // none: not made yet
   std::shared_ptr<const PaneSnapshot> drawn;
 };
 
@@ -137,6 +143,19 @@ void PaneGl::Parts::uploadDrops() {
   upload(craters, drawn->craters);
 }
 
+void PaneGl::Parts::open(double to_m) {
+  if (opening_m == to_m) return;
+  opening_m = to_m;
+  const Slide& slide = sim->slide();
+  const PaneMesh seen = slide.hides(to_m) ? cutAtSill(sim->mesh(), slide, to_m) : sim->mesh();
+  index_count = seen.indices.size();
+  if (index_count == 0) return;
+  vertices = gl::Buffer(gl, std::span<const float>(gridVertices(seen, sim->map().grid())));
+  indices = gl::Buffer(gl, std::span<const uint32_t>(seen.indices));
+}
+
+void PaneGl::open(double opening_m) { parts_->open(opening_m); }
+
 void PaneGl::step() {
   parts_->run(false);
   parts_->uploadDrops();
@@ -152,7 +171,8 @@ PaneDrawn PaneGl::drawn() const {
   PaneDrawn out;
   out.vertex_buffer = parts_->vertices.name();
   out.index_buffer = parts_->indices.name();
-  out.index_count = static_cast<int32_t>(parts_->sim->mesh().indices.size());
+  out.index_count = static_cast<int32_t>(parts_->index_count);
+  out.slid_m = parts_->opening_m.value_or(0.0) * parts_->sim->slide().direction();
   out.centre_m = map.centre_m();
   out.radius_m = map.radius_m();
   out.film = parts_->film.picture().name();

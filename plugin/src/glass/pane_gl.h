@@ -28,7 +28,8 @@ struct PaneDrawn {
   uint32_t vertex_buffer =
       0;  // floats {x, y, z, nx, ny, nz, u, v}: uv in [0, 1] over the grid (its whole texture)
   uint32_t index_buffer = 0;  // uint32_t triangles
-  int32_t index_count = 0;
+  int32_t index_count = 0;    // 0: all of it is behind its sill
+  glm::dvec3 slid_m{0.0};     // how far from where the mesh and the maps have it, vehicle frame
   glm::vec3 centre_m{0.0f};
   float radius_m = 0.0f;
   uint32_t position =
@@ -67,6 +68,8 @@ class PaneGl {
   // As step, and waits for all: afterwards PaneSim::stats is exact.
   void finish();
 
+  // Draws the glass slid so far, and no more of it than is before the sill.
+  void open(double opening_m);
   PaneDrawn drawn() const;
   // Film as it is after finish(), row by row, -1 off the pane.
   std::vector<int32_t> readFilm();

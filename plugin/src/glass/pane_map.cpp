@@ -3,45 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <tuple>
+
+#include "glass/chart.h"
 
 namespace rg::glass {
 namespace {
 
 constexpr int kMostTexels = 4096;        // along a side
 constexpr double kLeastArea_m2 = 1e-12;  // of a triangle; a smaller one is a mistake of the mesh
-
-[[noreturn]] void refusePane(const PaneInfo& info, const std::string& why) {
-  throw std::invalid_argument("pane '" + info.name + "': " + why);
-}
-
-struct Triangle {
-  std::array<glm::dvec3, 3> p;
-  std::array<glm::dvec2, 3> uv;
-  glm::dvec3 normal_area() const { return 0.5 * glm::cross(p[1] - p[0], p[2] - p[0]); }
-  double uvArea() const {
-    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    return 0.5 * (a.x * b.y - a.y * b.x);
-  }
-  // dP/du and dP/dv
-  std::pair<glm::dvec3, glm::dvec3> derivatives() const {
-    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    const double inv = 1.0 / (2.0 * uvArea());
-    const glm::dvec3 e = p[1] - p[0], f = p[2] - p[0];
-    return {(e * b.y - f * a.y) * inv, (f * a.x - e * b.x) * inv};
-  }
-};
-
-Triangle triangleOf(const PaneInfo& info, size_t t) {
-  Triangle out;
-  for (size_t k = 0; k < 3; ++k) {
-    const uint32_t i = info.indices[3 * t + k];
-    out.p[k] = info.positions_m[i];
-    out.uv[k] = info.uvs[i];
-  }
-  return out;
-}
 
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
@@ -62,10 +32,12 @@ void checkMesh(const PaneInfo& info) {
       refusePane(info, "vertex " + std::to_string(i) + " is not finite");
   }
   double uv_area = 0.0;
-  for (size_t t = 0; t < info.indices.size() / 3; ++t) uv_area += std::abs(triangleOf(info, t).uvArea());
+  const Chart given(info.uvs.begin(), info.uvs.end());
+  for (size_t t = 0; t < info.indices.size() / 3; ++t)
+    uv_area += std::abs(triangleOf(info, given, t).uvArea());
   if (uv_area <= 0.0) refusePane(info, "its uvs have no area");
   for (size_t t = 0; t < info.indices.size() / 3; ++t) {
-    const Triangle triangle = triangleOf(info, t);
+    const ChartTriangle triangle = triangleOf(info, given, t);
     if (glm::length(triangle.normal_area()) < kLeastArea_m2)
       refusePane(info, "triangle " + std::to_string(t) + " has no area");
     if (std::abs(triangle.uvArea()) < 1e-12 * uv_area)
@@ -77,6 +49,7 @@ void checkMesh(const PaneInfo& info) {
 
 PaneMap::PaneMap(const PaneInfo& info) {
   checkMesh(info);
+  chart_ = chartOf(info);
   layGrid(info);
   rasterise(info);
   findDirections();
@@ -84,23 +57,15 @@ PaneMap::PaneMap(const PaneInfo& info) {
   makeRegions();
 }
 
-// Scales uv so that a grid metre is a metre in the mean square over the glass.
+// Scales the chart so that a grid metre is a metre in the mean square over the glass.
 void PaneMap::layGrid(const PaneInfo& info) {
-  glm::dvec2 square{0.0}, least{1e300}, most{-1e300};
-  double area = 0.0;
-  for (size_t t = 0; t < info.indices.size() / 3; ++t) {
-    const Triangle triangle = triangleOf(info, t);
-    const auto [du, dv] = triangle.derivatives();
-    const double a = glm::length(triangle.normal_area());
-    square += a * glm::dvec2(glm::dot(du, du), glm::dot(dv, dv));
-    area += a;
-    for (const glm::dvec2& uv : triangle.uv) {
-      least = glm::min(least, uv);
-      most = glm::max(most, uv);
-    }
+  glm::dvec2 least{1e300}, most{-1e300};
+  for (const uint32_t i : info.indices) {
+    least = glm::min(least, chart_[i]);
+    most = glm::max(most, chart_[i]);
   }
   grid_.texel_m = info.texel_m;
-  grid_.metres_per_uv = glm::sqrt(square / area);
+  grid_.metres_per_uv = metresPerUnit(info, chart_);
   const glm::dvec2 texels = glm::ceil((most - least) * grid_.metres_per_uv / info.texel_m - 1e-6);
   if (!(texels.x <= kMostTexels && texels.y <= kMostTexels))
     refusePane(info, "needs more than 4096 texels along a side");
@@ -115,7 +80,7 @@ void PaneMap::rasterise(const PaneInfo& info) {
   constexpr double kOverlap = 1e-3;  // clearly inside of two triangles
   std::vector<uint8_t> clear(texels_.size(), 0);
   for (size_t t = 0; t < info.indices.size() / 3; ++t) {
-    Triangle triangle = triangleOf(info, t);
+    ChartTriangle triangle = triangleOf(info, chart_, t);
     const auto [du, dv] = triangle.derivatives();
     for (glm::dvec2& uv : triangle.uv) uv = (uv - grid_.uv_origin) * grid_.metres_per_uv / grid_.texel_m;
     const glm::dvec3 normal_area = triangle.normal_area();
@@ -160,6 +125,7 @@ void PaneMap::rasterise(const PaneInfo& info) {
     inside_[i] = texels_[i].area_m2 > 0.0f ? 1 : 0;
   }
   if (area_m2_ <= 0.0) refusePane(info, "is smaller than a texel");
+  shown_ = inside_;
 }
 
 // Right and up at the pane's middle, and from them glass metres.
@@ -187,6 +153,8 @@ void PaneMap::findDirections() {
   const glm::dvec3 vertical = std::abs(normal.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 up = glm::normalize(vertical - glm::dot(vertical, normal) * normal);
   const glm::dvec3 right = glm::cross(normal, up);  // seen from inside, looking out along the normal
+  mean_normal_ = normal;
+  mean_up_ = up;
   glassFromGrid_ = glm::dmat2(glm::dot(along_x, right), glm::dot(along_x, up), glm::dot(along_y, right),
                               glm::dot(along_y, up));
   gridFromGlass_ = glm::inverse(glassFromGrid_);
@@ -198,7 +166,7 @@ int PaneMap::texelAt(glm::dvec2 grid_m) const {
             y = static_cast<int>(std::floor(grid_m.y / grid_.texel_m));
   if (x < 0 || y < 0 || x >= grid_.size.x || y >= grid_.size.y) return -1;
   const int index = y * grid_.size.x + x;
-  return inside(index) ? index : -1;
+  return shown(index) ? index : -1;
 }
 
 glm::dvec2 PaneMap::middleOf(int index) const {
@@ -248,6 +216,7 @@ void PaneMap::makeNodes() {
     glass_low = glm::min(glass_low, glass);
     glass_high = glm::max(glass_high, glass);
   }
+  glass_extent_m_ = glass_high - glass_low + 1e-9;
   for (bool missing = true; missing;) {
     missing = false;
     const std::vector<double> known = weight;
@@ -281,9 +250,9 @@ void PaneMap::makeNodes() {
         glm::dvec2(static_cast<int>(n) % nodes_across_.x, static_cast<int>(n) / nodes_across_.x) *
         (kTile * grid_.texel_m);
     // Written so that left and right are alike to the last bit.
-    const glm::dvec2 glass = glassFromGrid(place), extent = glass_high - glass_low + 1e-9;
-    node.across = std::clamp((2.0 * glass.x - (glass_low.x + glass_high.x)) / extent.x, -1.0, 1.0);
-    node.height = std::clamp((glass.y - glass_low.y) / extent.y, 0.0, 1.0);
+    const glm::dvec2 glass = glassFromGrid(place);
+    node.across = std::clamp((2.0 * glass.x - (glass_low.x + glass_high.x)) / glass_extent_m_.x, -1.0, 1.0);
+    node.height = std::clamp((glass.y - glass_low.y) / glass_extent_m_.y, 0.0, 1.0);
     const double area = glm::length(glm::cross(node.along_x, node.along_y)) * grid_.texel_m * grid_.texel_m;
     node_metric_.emplace_back(static_cast<float>(glm::length(node.along_x) * grid_.texel_m),
                               static_cast<float>(glm::length(node.along_y) * grid_.texel_m),
@@ -291,15 +260,25 @@ void PaneMap::makeNodes() {
   }
 }
 
+glm::dvec2 PaneMap::acrossAndHeight(const glm::dvec3& shift_m) const {
+  const glm::dvec3 right = glm::cross(mean_normal_, mean_up_);
+  return glm::dvec2(2.0 * glm::dot(shift_m, right), glm::dot(shift_m, mean_up_)) / glass_extent_m_;
+}
+
+size_t PaneMap::regionOf(int index) const {
+  const int x = (index % grid_.size.x) * kRegionsAcross / grid_.size.x,
+            y = (index / grid_.size.x) * kRegionsAcross / grid_.size.y;
+  return static_cast<size_t>(y * kRegionsAcross + x);
+}
+
 void PaneMap::makeRegions() {
   for (int i = 0; i < texelCount(); ++i) {
     if (!inside(i)) continue;
-    const int x = (i % grid_.size.x) * kRegionsAcross / grid_.size.x,
-              y = (i / grid_.size.x) * kRegionsAcross / grid_.size.y;
-    const size_t r = static_cast<size_t>(y * kRegionsAcross + x);
+    const size_t r = regionOf(i);
     regions_[r].push_back(i);
     region_area_[r] += static_cast<double>(texel(i).area_m2) * glm::dvec3(texel(i).normal);
   }
+  all_of_region_ = regions_;
   for (size_t r = 0; r < regions_.size(); ++r) {
     glm::dvec3 sum{0.0};
     for (const int i : regions_[r]) sum += glm::dvec3(texel(i).position_m);
@@ -307,14 +286,48 @@ void PaneMap::makeRegions() {
   }
 }
 
+size_t PaneMap::tileOf(int index) const {
+  const int x = index % grid_.size.x / shared::kTileSize, y = index / grid_.size.x / shared::kTileSize;
+  return static_cast<size_t>(y * tileCount().x + x);
+}
+
+// Regions and tiles are summed afresh, so that what they are depends on what is shown alone.
+void PaneMap::show(std::span<const int> texels, bool shown) {
+  std::array<bool, kRegions> touched{};
+  std::vector<bool> touched_tiles(tile_area_m2_.size(), false);
+  for (const int i : texels) {
+    shown_[static_cast<size_t>(i)] = shown ? 1 : 0;
+    touched[regionOf(i)] = true;
+    touched_tiles[tileOf(i)] = true;
+  }
+  for (size_t t = 0; t < tile_area_m2_.size(); ++t) {
+    if (touched_tiles[t]) tile_area_m2_[t] = 0.0f;
+  }
+  for (int i = 0; i < texelCount(); ++i) {
+    const size_t t = tileOf(i);
+    if (touched_tiles[t] && this->shown(i)) tile_area_m2_[t] += texel(i).area_m2;
+  }
+  for (size_t r = 0; r < regions_.size(); ++r) {
+    if (!touched[r]) continue;
+    regions_[r].clear();
+    region_area_[r] = glm::dvec3(0.0);
+    for (const int i : all_of_region_[r]) {
+      if (!this->shown(i)) continue;
+      regions_[r].push_back(i);
+      region_area_[r] += static_cast<double>(texel(i).area_m2) * glm::dvec3(texel(i).normal);
+    }
+  }
+}
+
 // Vertices at one place share their normal, though they may have been split for uv or shading.
-PaneMesh::PaneMesh(const PaneInfo& info) : indices(info.indices.begin(), info.indices.end()) {
+PaneMesh::PaneMesh(const PaneInfo& info, const PaneMap& map)
+    : indices(info.indices.begin(), info.indices.end()) {
   const auto less = [](const glm::vec3& a, const glm::vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
   std::map<glm::vec3, glm::dvec3, decltype(less)> normals(less);
   for (size_t t = 0; t < indices.size() / 3; ++t) {
-    const glm::dvec3 area = triangleOf(info, t).normal_area();
+    const glm::dvec3 area = triangleOf(info, map.chart(), t).normal_area();
     for (size_t k = 0; k < 3; ++k)
       normals.try_emplace(info.positions_m[indices[3 * t + k]], 0.0).first->second += area;
   }
@@ -323,7 +336,8 @@ PaneMesh::PaneMesh(const PaneInfo& info) : indices(info.indices.begin(), info.in
     const auto found = normals.find(p);
     const glm::vec3 n =
         found == normals.end() ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(glm::normalize(found->second));
-    vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z, info.uvs[i].x, info.uvs[i].y});
+    const glm::vec2 uv(map.chart()[i]);
+    vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
   }
 }
 

@@ -6,13 +6,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "glass/pane.h"
 
 namespace rg::glass {
 
-// Grid metres: the uv chart scaled so that it has metres on the average, x along u, y along v; the local
+// Grid metres: the chart scaled so that it has metres on the average, x along u, y along v; the local
 // metric does the rest.
 struct PaneGrid {
   glm::ivec2 size{0};         // texels; a rim of one texel lies off the pane
@@ -42,16 +43,24 @@ struct PaneNode {
 class PaneMap {
  public:
   // Throws std::invalid_argument naming the pane: uvs missing, without area or overlapping; degenerate
-  // triangles; indices out of range; NaN; smaller than a texel; more than 4096 texels along a side.
+  // triangles; indices out of range; NaN; smaller than a texel; more than 4096 texels along a side; seams on
+  // a pane that cannot be laid flat.
   explicit PaneMap(const PaneInfo& info);
 
+  const std::vector<glm::dvec2>& chart() const { return chart_; }  // of each vertex, see chart.h
   const PaneGrid& grid() const { return grid_; }
   int texelCount() const { return grid_.size.x * grid_.size.y; }
   const PaneTexel& texel(int index) const { return texels_[static_cast<size_t>(index)]; }
   bool inside(int index) const { return inside_[static_cast<size_t>(index)] != 0; }
   double area_m2() const { return area_m2_; }
 
-  // Index of the texel at a place, or -1 where it is off the pane.
+  // Of a window that slides some texels are behind its sill: texelAt and what is said of tiles and of
+  // regions, but for their centres, leave them out. All else about a map never changes once it is made, so
+  // that several threads may ask for it.
+  bool shown(int index) const { return shown_[static_cast<size_t>(index)] != 0; }
+  void show(std::span<const int> texels, bool shown);
+
+  // Index of the texel at a place, or -1 where it is off the pane or not shown.
   int texelAt(glm::dvec2 grid_m) const;
   glm::dvec2 middleOf(int index) const;
 
@@ -63,6 +72,10 @@ class PaneMap {
   std::optional<glm::dvec3> vehicleFromGrid(glm::dvec2 grid_m) const;
   bool rightHanded() const { return right_handed_; }  // along x cross along y points out of the glass
   glm::dvec2 up() const { return up_; }               // unit, grid axes: from the lower to the upper edge
+  const glm::dvec3& meanNormal() const { return mean_normal_; }  // unit, outward, vehicle frame
+  const glm::dvec3& meanUp() const { return mean_up_; }          // unit, up along the mean glass
+  // What a shift along the mean glass is in PaneNode's across and height.
+  glm::dvec2 acrossAndHeight(const glm::dvec3& shift_m) const;
 
   // Corners of tiles, row by row.
   glm::ivec2 nodeCount() const { return nodes_across_; }
@@ -71,11 +84,11 @@ class PaneMap {
   const std::vector<shared::vec4>& nodeMetric() const {
     return node_metric_;
   }  // metres for a texel along x, y; 1/area in 1/m^2; 0
-  const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }
+  const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }  // of what is shown
   // A vector of the vehicle's frame as its components along the glass, grid axes, in its own unit.
   static glm::dvec2 alongGlass(const PaneNode& node, const glm::dvec3& v);
 
-  // Regions for shelter, see kRegions. None where the region has no glass.
+  // Regions for shelter, see kRegions. Middle of the whole pane's glass there; none where it has none.
   const std::optional<glm::dvec3>& regionCentre(int region) const {
     return region_centre_[static_cast<size_t>(region)];
   }
@@ -91,19 +104,25 @@ class PaneMap {
   void findDirections();
   void makeNodes();
   void makeRegions();
+  size_t regionOf(int index) const;
+  size_t tileOf(int index) const;
 
+  std::vector<glm::dvec2> chart_;
   PaneGrid grid_;
   std::vector<PaneTexel> texels_;
-  std::vector<uint8_t> inside_;  // by itself, as each drop on its way asks for it
+  std::vector<uint8_t> inside_;
+  std::vector<uint8_t> shown_;  // by itself, as each drop on its way asks for it
   double area_m2_ = 0.0;
   glm::dvec2 middle_m_{0.0}, up_{0.0, 1.0};
+  glm::dvec3 mean_normal_{0.0, 0.0, 1.0}, mean_up_{1.0, 0.0, 0.0};
+  glm::dvec2 glass_extent_m_{1.0};
   glm::dmat2 gridFromGlass_{1.0}, glassFromGrid_{1.0};
   bool right_handed_ = true;
   glm::ivec2 nodes_across_{0};
   std::vector<PaneNode> nodes_;
   std::vector<shared::vec4> node_metric_;
   std::vector<float> tile_area_m2_;
-  std::array<std::vector<int>, kRegions> regions_;
+  std::array<std::vector<int>, kRegions> regions_, all_of_region_;
   std::array<glm::dvec3, kRegions> region_area_{};
   std::array<std::optional<glm::dvec3>, kRegions> region_centre_;
   glm::vec3 centre_m_{0.0f};
@@ -111,9 +130,10 @@ class PaneMap {
 };
 
 // A copy of the mesh for those who draw it: floats {x, y, z, nx, ny, nz, u, v}, outward smooth normals, uv as
-// given.
+// of the chart.
 struct PaneMesh {
-  explicit PaneMesh(const PaneInfo& info);
+  PaneMesh() = default;
+  PaneMesh(const PaneInfo& info, const PaneMap& map);
   std::vector<float> vertices;
   std::vector<uint32_t> indices;
 };
