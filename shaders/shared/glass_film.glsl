@@ -12,7 +12,7 @@ RG_CONST float kFilmStep_s = 1.0f / 60.0f;
 RG_CONST float kOverfull_m = 300.0e-6f;      // a thicker film is no film: the rest goes to the drops
 RG_CONST float kNusselt_per_m_s = 1000.0f / (3.0f * 1.0e-3f); // rho / (3 mu)
 RG_CONST float kShear_per_pa_s = 1.0f / (2.0f * 1.0e-3f);     // 1 / (2 mu)
-
+RG_CONST float kTension_m3 = kFilmStep_s * 0.072f / (3.0f * 1.0e-3f); // gamma / (3 mu), for a step
 
 // What all texels of a step share.
 struct FilmStepInfo {
@@ -31,7 +31,7 @@ struct FilmStepInfo {
   float bead_mm3_per_pl; // the cube of a bead's base radius, see beadRadius_mm
   float bead_drying_pl_mm; // what a bead loses in a turn to dry in still air, by its base radius
   float bead_airing;     // moving air takes 1 + this sqrt(radius in mm) times as much
-  float unused;
+  float pressing_mps2;   // acceleration onto the glass, mean over the pane; < 0 where it hangs
 };
 RG_SIZE(FilmStepInfo, 64)
 
@@ -41,6 +41,8 @@ struct FilmCell {
   float h_m;
   int x_pl;      // what it wants to give along x: > 0 to x + 1, < 0 to x - 1
   int y_pl;
+  float pressure; // times the cube of a thickness (m^3): the picolitres that pass through a face in a step
+  float most_m3;  // the largest such cube with which a step is stable
 };
 
 RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
@@ -56,24 +58,52 @@ RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) {
   return vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m) + vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m);
 }
 
-// Share of its water a texel gives in a step for a velocity of `courant` cells in a step. Up to 1/3 as it is: there the waves, three times as fast,
-// go one cell. Beyond, the flux of a draining film, c ~ V^2, goes on along its tangent, so that waves keep to one cell; never more than half.
+// Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
+RG_CONST float kFastest_cells = 7.0f / 8.0f;
+
+// Share of its water a texel gives in a step for a velocity of `courant` cells in a step. Up to a third of the fastest as it is; beyond, the flux of
+// a draining film, c ~ V^2, goes on along its tangent; never more than half.
 RG_FN float keptToOneCell(float courant) {
-  if (courant <= 1.0f / 3.0f) return courant;
-  return min(1.0f - (2.0f / 3.0f) * sqrt(1.0f / (3.0f * courant)), 0.5f);
+  if (3.0f * courant <= kFastest_cells) return courant;
+  return min(kFastest_cells - (2.0f / 3.0f) * kFastest_cells * sqrt(kFastest_cells / (3.0f * courant)), 0.5f);
 }
 
-RG_FN FilmCell filmCell(int volume_pl, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+// A neighbour's rise over a texel; past the pane's edge the film goes on level, onto dry glass it goes down.
+RG_FN int rise_pl(int neighbour_pl, int volume_pl) { return neighbour_pl < 0 ? 0 : neighbour_pl - volume_pl; }
+
+// By how much a texel's four neighbours together stand above it: the film's curvature.
+RG_FN int hollow_pl(int volume_pl, int left_pl, int right_pl, int below_pl, int above_pl) {
+  return rise_pl(left_pl, volume_pl) + rise_pl(right_pl, volume_pl) + rise_pl(below_pl, volume_pl) + rise_pl(above_pl, volume_pl);
+}
+
+// A step's explicit differences damp what changes from texel to texel by 64 of tension's and 8 of weight's share, and waves by twice their way: beyond
+// two in all it would grow. What waves leave of two, less some of it, so that what alternates dies away within a few steps.
+RG_CONST float kStable = 1.4f;
+
+// Pressure of lubrication theory, p = rho g cos a h - gamma lap h (Oron, Davis & Bankoff 1997, Rev. Mod. Phys. 69), whose flux is
+// -h^3 / (3 mu) grad p. As if texels were square and their neighbours as large as they.
+RG_FN void press(RG_INOUT(FilmCell) cell, int hollow, float courant, float per_m2, RG_IN(FilmStepInfo) info) {
+  RG_EXACT float weight = kNusselt_per_m_s * kFilmStep_s * info.pressing_mps2 * per_m2, tension = kTension_m3 * per_m2 * per_m2;
+  RG_EXACT float pressure = weight * float(cell.volume_pl) - tension * float(hollow);
+  cell.pressure = pressure;
+  RG_EXACT float most_m3 = kStable * (1.0f - min(3.0f * courant, kFastest_cells)) / (64.0f * tension + 8.0f * abs(weight));
+  cell.most_m3 = most_m3;
+}
+
+RG_FN FilmCell filmCell(int volume_pl, int hollow, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmCell cell;
   cell.volume_pl = volume_pl;
   cell.h_m = thickness_m(volume_pl, metric);
   cell.x_pl = 0;
   cell.y_pl = 0;
+  cell.pressure = 0.0f;
+  cell.most_m3 = 0.0f;
   if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
   vec2 u = filmVelocity(cell.h_m, drive);
   float cx = u.x * kFilmStep_s / metric.x;
   float cy = u.y * kFilmStep_s / metric.y;
   float courant = abs(cx) + abs(cy);
+  press(cell, hollow, courant, metric.z, info);
   if (courant <= 0.0f) return cell;
   float scale = float(volume_pl) * (keptToOneCell(courant) / courant);
   cell.x_pl = int(floor(cx * scale + 0.5f));
@@ -93,13 +123,18 @@ RG_FN float entryThickness_m(RG_IN(FilmCell) to, uint glass, RG_IN(FilmStepInfo)
   return to.volume_pl < 0 || to.h_m >= info.pin_m ? 0.0f : front_m;
 }
 
-// Surface tension between neighbours, out of a into b; the same with a minus sign from b's side. A share of the difference, small beside
-// drainage and chosen so; never more than an eighth of what is there.
+// Films flow slowly: picolitres below one count as often as their share of one, for all faces in the same steps.
+RG_FN float rounding(RG_IN(FilmStepInfo) info) { return unitFloat(pcg(info.step)); }
+
+// Surface tension and weight between neighbours, out of a into b; the same with a minus sign from b's side. The thickness cubed is that mean of both
+// which dries no texel out (Zhornitskaya & Bertozzi 2000, SIAM J. Numer. Anal. 37); never more than an eighth of what is there.
 RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) info) {
   if (a.h_m < info.pin_m || b.h_m < info.pin_m) return 0;
-  int difference = a.volume_pl - b.volume_pl;
-  int size = min(abs(difference) >> 5, max(a.volume_pl, b.volume_pl) >> 3);
-  return difference > 0 ? size : -size;
+  RG_EXACT float product_m2 = a.h_m * b.h_m;
+  RG_EXACT float cube_m3 = 2.0f * product_m2 * product_m2 / (a.h_m + b.h_m);
+  RG_EXACT float flow = min(cube_m3, min(a.most_m3, b.most_m3)) * (a.pressure - b.pressure);
+  int size = min(int(abs(flow) + rounding(info)), (flow > 0.0f ? a.volume_pl : b.volume_pl) >> 3);
+  return flow > 0.0f ? size : -size;
 }
 
 // What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it; `a_entry_m`, `b_entry_m`:

@@ -103,9 +103,10 @@ class FilmReference {
     std::vector<shared::FilmCell> cells(film.size());
     for (int i = 0; i < map_.texelCount(); ++i) {
       const int x = i % columns_, y = i / columns_;
-      cells[static_cast<size_t>(i)] = at(i) > 0 ? shared::filmCell(at(i), field(order.drive, x, y),
-                                                                   field(map_.nodeMetric(), x, y), order.info)
-                                                : shared::FilmCell{at(i), 0.0f, 0, 0};
+      cells[static_cast<size_t>(i)] =
+          at(i) > 0 ? shared::filmCell(at(i), hollow(i), field(order.drive, x, y),
+                                       field(map_.nodeMetric(), x, y), order.info)
+                    : shared::FilmCell{at(i), 0.0f, 0, 0, 0.0f, 0.0f};
     }
     const int tiles_across = map_.tileCount().x;
     std::vector<shared::FilmTexel> settled(film.size());
@@ -134,6 +135,11 @@ class FilmReference {
       tile.film_high += static_cast<uint32_t>(std::max(at(i), 0)) >> 16u;
       tile.beads_pl += static_cast<uint32_t>(beadsAt(i).volume_pl);
     }
+  }
+
+  // A texel with water lies within the pane's rim: it has all its neighbours.
+  int hollow(int i) {
+    return shared::hollow_pl(at(i), at(i - 1), at(i + 1), at(i - columns_), at(i + columns_));
   }
 
   void dry(const shared::FilmStepInfo& info, glass::FilmReport& report) {

@@ -60,6 +60,7 @@ struct PaneSim::State {
         film_enabled(info.film_enabled),
         surface(surfaceFor(info)),
         map(info),
+        mean_normal(meanNormal(map)),
         mesh(info),
         film(map, ledger),
         drops(map, surface, info.max_drops) {}
@@ -85,6 +86,13 @@ struct PaneSim::State {
   void place(std::span<const PlacedDrop> list);
   void checkPlaces(std::span<const PlacedDrop> list) const;
 
+  // Outward; where the pane bends not of unit length, so that products with it are the pane's means.
+  static glm::dvec3 meanNormal(const PaneMap& map) {
+    glm::dvec3 sum(0.0);
+    for (int region = 0; region < kRegions; ++region) sum += map.regionArea_m2(region);
+    return sum / map.area_m2();
+  }
+
   mutable std::mutex mutex;
   std::string name;
   uint32_t id;
@@ -92,6 +100,7 @@ struct PaneSim::State {
   bool film_enabled;
   Surface surface;
   PaneMap map;
+  glm::dvec3 mean_normal;
   PaneMesh mesh;
   Ledger ledger;
   FilmLink film;
@@ -190,6 +199,7 @@ void PaneSim::State::closeFilmStep() {
       evaporation_kg_s(1e-3, angle, std::min(now.humidity, 1.0), saturated_kg_m3) / kRho_kg_m3 *
       kPicolitresPerM3 * shared::kDryingSteps * kTicksPerFilmStep * kTickSeconds);
   info.bead_airing = static_cast<float>(ventilation(air_mps, 2e-3) - 1.0);
+  info.pressing_mps2 = static_cast<float>(-glm::dot(now.acceleration_mps2, mean_normal));
   film.close(ticks / kTicksPerFilmStep, forces.filmDrive(), info);
 }
 
