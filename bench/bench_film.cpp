@@ -254,7 +254,7 @@ void main() {
 
 void compare(const GladGLContext& gl, glm::ivec2 grid, int frames) {
   const std::unique_ptr<glass::PaneMap> map = paneOf(grid);
-  glass::FilmGl film(gl, glass::makeFilmPrograms(gl), *map);
+  glass::FilmGl film(gl, glass::makeFilmPrograms(gl), *map, glass::UnevenGlass(*map, 1));
   Downpour downpour(*map);
   Copy copy(gl, *map);
   Stopwatch stopwatch(gl);

@@ -43,6 +43,13 @@ struct FilmCell {
   int y_pl;
   float pressure; // times the cube of a thickness (m^3): the picolitres that pass through a face in a step
   float most_m3;  // the largest such cube with which a step is stable
+  float entry_m;  // how thick a film must be to pass into it: off the pane and where it is wet it always does
+};
+
+// What a texel's law asks of its four neighbours.
+struct FilmAround {
+  int hollow_pl; // by how much they together stand above it: the film's curvature
+  int least_pl;  // of those on the pane
 };
 
 RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
@@ -68,13 +75,27 @@ RG_FN float keptToOneCell(float courant) {
   return min(kFastest_cells - (2.0f / 3.0f) * kFastest_cells * sqrt(kFastest_cells / (3.0f * courant)), 0.5f);
 }
 
-// A neighbour's rise over a texel; past the pane's edge the film goes on level, onto dry glass it goes down.
-RG_FN int rise_pl(int neighbour_pl, int volume_pl) { return neighbour_pl < 0 ? 0 : neighbour_pl - volume_pl; }
-
-// By how much a texel's four neighbours together stand above it: the film's curvature.
-RG_FN int hollow_pl(int volume_pl, int left_pl, int right_pl, int below_pl, int above_pl) {
-  return rise_pl(left_pl, volume_pl) + rise_pl(right_pl, volume_pl) + rise_pl(below_pl, volume_pl) + rise_pl(above_pl, volume_pl);
+// Past the pane's edge the film goes on level; onto dry glass it goes down.
+RG_FN FilmAround filmAround(int volume_pl, int left_pl, int right_pl, int below_pl, int above_pl) {
+  int left = left_pl < 0 ? volume_pl : left_pl, right = right_pl < 0 ? volume_pl : right_pl;
+  int below = below_pl < 0 ? volume_pl : below_pl, above = above_pl < 0 ? volume_pl : above_pl;
+  FilmAround around;
+  around.hollow_pl = left + right + below + above - 4 * volume_pl;
+  around.least_pl = min(min(left, right), min(below, above));
+  return around;
 }
+
+// Glass is not the same everywhere: levels 0 (easily wetted) .. 31 from glass/uneven_glass.h, five bits each. A strip's code has its own texels'
+// and that of the one on either side.
+RG_CONST int kGlassLevels = 32;
+RG_FN int glassLevel(uint code, int k) { return int(code >> uint(5 * (k + 1))) & (kGlassLevels - 1); }
+RG_FN float unevenness(int level) { return float(level) * (2.0f / 31.0f) - 1.0f; } // -1 .. 1
+
+// Tangent of the largest turn that uneven glass gives a contact line's way, and so what runs there (unsourced).
+RG_CONST float kMostTurn = 0.6f;
+
+// Where it has dry glass beside it a stream follows its edge, whose way over uneven glass is not straight down.
+RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y, along.x)) / (1.0f + turn * turn); }
 
 // A step's explicit differences damp what changes from texel to texel by 64 of tension's and 8 of weight's share, and waves by twice their way: beyond
 // two in all it would grow. What waves leave of two, less some of it, so that what alternates dies away within a few steps.
@@ -82,15 +103,15 @@ RG_CONST float kStable = 1.4f;
 
 // Pressure of lubrication theory, p = rho g cos a h - gamma lap h (Oron, Davis & Bankoff 1997, Rev. Mod. Phys. 69), whose flux is
 // -h^3 / (3 mu) grad p. As if texels were square and their neighbours as large as they.
-RG_FN void press(RG_INOUT(FilmCell) cell, int hollow, float courant, float per_m2, RG_IN(FilmStepInfo) info) {
+RG_FN void press(RG_INOUT(FilmCell) cell, int hollow_pl, float courant, float per_m2, RG_IN(FilmStepInfo) info) {
   RG_EXACT float weight = kNusselt_per_m_s * kFilmStep_s * info.pressing_mps2 * per_m2, tension = kTension_m3 * per_m2 * per_m2;
-  RG_EXACT float pressure = weight * float(cell.volume_pl) - tension * float(hollow);
+  RG_EXACT float pressure = weight * float(cell.volume_pl) - tension * float(hollow_pl);
   cell.pressure = pressure;
   RG_EXACT float most_m3 = kStable * (1.0f - min(3.0f * courant, kFastest_cells)) / (64.0f * tension + 8.0f * abs(weight));
   cell.most_m3 = most_m3;
 }
 
-RG_FN FilmCell filmCell(int volume_pl, int hollow, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmCell cell;
   cell.volume_pl = volume_pl;
   cell.h_m = thickness_m(volume_pl, metric);
@@ -98,29 +119,19 @@ RG_FN FilmCell filmCell(int volume_pl, int hollow, RG_IN(vec4) drive, RG_IN(vec4
   cell.y_pl = 0;
   cell.pressure = 0.0f;
   cell.most_m3 = 0.0f;
+  cell.entry_m = volume_pl < 0 || cell.h_m >= info.pin_m ? 0.0f : info.front_m * (1.0f + 0.5f * unevenness(glass));
   if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
   vec2 u = filmVelocity(cell.h_m, drive);
+  if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
   float cx = u.x * kFilmStep_s / metric.x;
   float cy = u.y * kFilmStep_s / metric.y;
   float courant = abs(cx) + abs(cy);
-  press(cell, hollow, courant, metric.z, info);
+  press(cell, around.hollow_pl, courant, metric.z, info);
   if (courant <= 0.0f) return cell;
   float scale = float(volume_pl) * (keptToOneCell(courant) / courant);
   cell.x_pl = int(floor(cx * scale + 0.5f));
   cell.y_pl = int(floor(cy * scale + 0.5f));
   return cell;
-}
-
-// Glass is not the same everywhere: what sets a texel apart from others.
-RG_FN uint glassAt(uint texel, RG_IN(FilmStepInfo) info) { return pcg(texel ^ info.pane); }
-
-// How thick a film must be to run onto this texel when it is dry, by what glass is there: so fronts turn into fingers.
-RG_FN float frontThickness_m(uint glass, RG_IN(FilmStepInfo) info) { return info.front_m * (0.5f + unitFloat(glass)); }
-
-// How thick a film must be to pass into a texel: onto dry glass as above; where it is wet, and over the pane's edge, it always does.
-RG_FN float entryThickness_m(RG_IN(FilmCell) to, uint glass, RG_IN(FilmStepInfo) info) {
-  float front_m = frontThickness_m(glass, info);
-  return to.volume_pl < 0 || to.h_m >= info.pin_m ? 0.0f : front_m;
 }
 
 // Films flow slowly: picolitres below one count as often as their share of one, for all faces in the same steps.
@@ -137,13 +148,9 @@ RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) 
   return flow > 0.0f ? size : -size;
 }
 
-// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it; `a_entry_m`, `b_entry_m`:
-// entryThickness_m of both.
-RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, float a_entry_m, RG_IN(FilmCell) b, int b_pl, float b_entry_m, RG_IN(FilmStepInfo) info) {
-  return levelled_pl(a, b, info) + (a.h_m >= b_entry_m ? max(a_pl, 0) : 0) + (b.h_m >= a_entry_m ? min(b_pl, 0) : 0);
-}
-RG_FN int faceFlow_pl(RG_IN(FilmCell) a, int a_pl, uint a_texel, RG_IN(FilmCell) b, int b_pl, uint b_texel, RG_IN(FilmStepInfo) info) {
-  return flowBetween_pl(a, a_pl, entryThickness_m(a, glassAt(a_texel, info), info), b, b_pl, entryThickness_m(b, glassAt(b_texel, info), info), info);
+// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it.
+RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, RG_IN(FilmCell) b, int b_pl, RG_IN(FilmStepInfo) info) {
+  return levelled_pl(a, b, info) + (a.h_m >= b.entry_m ? max(a_pl, 0) : 0) + (b.h_m >= a.entry_m ? min(b_pl, 0) : 0);
 }
 
 // A tile dries in every eighth step, for all eight: what else lies still on it need not be looked at in the steps between.
@@ -177,9 +184,9 @@ struct FilmTexel {
 
 RG_CONST float kWhole_m = 0.5e-6f; // a thinner film dries before it breaks (unsourced)
 
-// Whether a film breaks up in its turn to dry: as the glass there is, and by chance each time.
+// Whether a film breaks up in its turn to dry: by chance.
 RG_FN bool breaksUp(float h_m, uint texel, RG_IN(FilmStepInfo) info) {
-  return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(glassAt(texel, info) + info.step)) < info.rupture_chance;
+  return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(pcg(texel ^ info.pane) + info.step)) < info.rupture_chance;
 }
 
 RG_FN FilmTexel asItIs(int film_pl, RG_IN(Beads) lying) {

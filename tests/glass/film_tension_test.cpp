@@ -17,7 +17,7 @@ constexpr double kGammaOverMu = 0.072 / 1.0e-3, kStepOfFilm_s = 1.0 / 60.0;
 class LoneFilm {
  public:
   LoneFilm(const GladGLContext& gl, glm::ivec2 texels, double texel_m)
-      : texels_(texels), texel_m_(texel_m), map_(infoOf(texels, texel_m)), film_(gl, glass::makeFilmPrograms(gl), map_) {}
+      : texels_(texels), texel_m_(texel_m), map_(infoOf(texels, texel_m)), film_(gl, glass::makeFilmPrograms(gl), map_, glass::UnevenGlass(map_, 1)) {}
 
   // Thickness by the place of a texel's middle, metres from the first one's outer corner.
   template <class Thickness>

@@ -10,6 +10,7 @@
 #include "glass/film_link.h"
 #include "glass/impact.h"
 #include "glass/random.h"
+#include "glass/uneven_glass.h"
 #include "glass/washer.h"
 #include "shared/glass_beads.glsl"
 #include "tick.h"
@@ -61,6 +62,7 @@ struct PaneSim::State {
         surface(surfaceFor(info)),
         map(info),
         mean_normal(meanNormal(map)),
+        uneven(map, chance()),
         mesh(info),
         film(map, ledger),
         drops(map, surface, info.max_drops) {}
@@ -71,7 +73,7 @@ struct PaneSim::State {
   };
 
   DropWorld world() {
-    return {map,  surface, forces,    film,         ledger,
+    return {map,  uneven, surface, forces,    film,         ledger,
             seed, id,      now.index, now.humidity, saturatedVapour_kg_m3(now.temperature_c)};
   }
   bool ready() const { return (ticks + 1) % kTicksPerFilmStep != 0 || film.reported(stepUsedBy(ticks + 1)); }
@@ -86,6 +88,7 @@ struct PaneSim::State {
   void place(std::span<const PlacedDrop> list);
   void checkPlaces(std::span<const PlacedDrop> list) const;
 
+  uint32_t chance() const { return id ^ static_cast<uint32_t>(seed); }
   // Outward; where the pane bends not of unit length, so that products with it are the pane's means.
   static glm::dvec3 meanNormal(const PaneMap& map) {
     glm::dvec3 sum(0.0);
@@ -101,6 +104,7 @@ struct PaneSim::State {
   Surface surface;
   PaneMap map;
   glm::dvec3 mean_normal;
+  UnevenGlass uneven;
   PaneMesh mesh;
   Ledger ledger;
   FilmLink film;
@@ -176,7 +180,7 @@ void PaneSim::State::closeFilmStep() {
   info.columns = map.grid().size.x;
   info.rows = map.grid().size.y;
   info.step = static_cast<uint32_t>(now.index);
-  info.pane = id ^ static_cast<uint32_t>(seed);
+  info.pane = chance();
   info.up_x = static_cast<float>(map.up().x);
   info.up_y = static_cast<float>(map.up().y);
   info.pin_m = static_cast<float>(surface.pin_m);
@@ -267,6 +271,7 @@ PaneSim::PaneSim(const PaneInfo& info, uint32_t id, uint64_t seed)
 PaneSim::~PaneSim() = default;
 
 const PaneMap& PaneSim::map() const { return state_->map; }
+const UnevenGlass& PaneSim::unevenness() const { return state_->uneven; }
 const PaneMesh& PaneSim::mesh() const { return state_->mesh; }
 const std::string& PaneSim::name() const { return state_->name; }
 

@@ -18,6 +18,7 @@
 namespace rg::glass {
 
 class PaneMap;
+class UnevenGlass;
 struct PaneMesh;
 class Drops;
 struct FilmOrder;
@@ -152,6 +153,7 @@ class PaneSim {
   PaneSim& operator=(const PaneSim&) = delete;
 
   const PaneMap& map() const;  // immutable after construction
+  const UnevenGlass& unevenness() const;  // likewise
   const PaneMesh& mesh() const;
   const std::string& name() const;
 

@@ -85,7 +85,7 @@ struct PaneGl::Parts {
   Parts(const GladGLContext& context, std::shared_ptr<FilmPrograms> programs, std::shared_ptr<PaneSim> pane)
       : gl(context),
         sim(std::move(pane)),
-        film(gl, std::move(programs), sim->map()),
+        film(gl, std::move(programs), sim->map(), sim->unevenness()),
         maps(makeMaps(gl, sim->map())),
         vertices(gl, std::span<const float>(gridVertices(sim->mesh(), sim->map().grid()))),
         indices(gl, std::span<const uint32_t>(sim->mesh().indices)) {}
