@@ -68,20 +68,20 @@ RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) {
 // Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
 RG_CONST float kFastest_cells = 7.0f / 8.0f;
 
-// Share of its water a texel gives in a step for a velocity of `courant` cells in a step. Up to a third of the fastest as it is; beyond, the flux of
-// a draining film, c ~ V^2, goes on along its tangent; never more than half.
+// How much of `courant`, a velocity in cells a step, a texel's water goes. Up to a third of the fastest all of it; beyond, the flux of a draining film,
+// courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Never quite half a cell.
 RG_FN float keptToOneCell(float courant) {
-  if (3.0f * courant <= kFastest_cells) return courant;
-  return min(kFastest_cells - (2.0f / 3.0f) * kFastest_cells * sqrt(kFastest_cells / (3.0f * courant)), 0.5f);
+  float i = 1.0f / max(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
+  return i * i * min(3.0f - 2.0f * i, 1.49f / kFastest_cells);
 }
 
 // Past the pane's edge the film goes on level; onto dry glass it goes down.
 RG_FN FilmAround filmAround(int volume_pl, int left_pl, int right_pl, int below_pl, int above_pl) {
-  int left = left_pl < 0 ? volume_pl : left_pl, right = right_pl < 0 ? volume_pl : right_pl;
-  int below = below_pl < 0 ? volume_pl : below_pl, above = above_pl < 0 ? volume_pl : above_pl;
   FilmAround around;
-  around.hollow_pl = left + right + below + above - 4 * volume_pl;
-  around.least_pl = min(min(left, right), min(below, above));
+  around.hollow_pl = (left_pl < 0 ? volume_pl : left_pl) + (right_pl < 0 ? volume_pl : right_pl) + (below_pl < 0 ? volume_pl : below_pl) +
+                     (above_pl < 0 ? volume_pl : above_pl) - 4 * volume_pl;
+  // Without sign those off the pane are the greatest.
+  around.least_pl = int(min(min(uint(left_pl), uint(right_pl)), min(uint(below_pl), uint(above_pl))) & 0x7fffffffu);
   return around;
 }
 
@@ -123,12 +123,11 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
   vec2 u = filmVelocity(cell.h_m, drive);
   if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
-  float cx = u.x * kFilmStep_s / metric.x;
-  float cy = u.y * kFilmStep_s / metric.y;
+  float per_cells = kFilmStep_s / (metric.x * metric.y);
+  float cx = u.x * metric.y * per_cells, cy = u.y * metric.x * per_cells;
   float courant = abs(cx) + abs(cy);
   press(cell, around.hollow_pl, courant, metric.z, info);
-  if (courant <= 0.0f) return cell;
-  float scale = float(volume_pl) * (keptToOneCell(courant) / courant);
+  float scale = float(volume_pl) * keptToOneCell(courant);
   cell.x_pl = int(floor(cx * scale + 0.5f));
   cell.y_pl = int(floor(cy * scale + 0.5f));
   return cell;
@@ -137,12 +136,10 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
 // Films flow slowly: picolitres below one count as often as their share of one, for all faces in the same steps.
 RG_FN float rounding(RG_IN(FilmStepInfo) info) { return unitFloat(pcg(info.step)); }
 
-// Surface tension and weight between neighbours, out of a into b; the same with a minus sign from b's side. The thickness cubed is that mean of both
-// which dries no texel out (Zhornitskaya & Bertozzi 2000, SIAM J. Numer. Anal. 37); never more than an eighth of what is there.
+// Surface tension and weight between neighbours, out of a into b; the same with a minus sign from b's side. Never more than an eighth of what is there.
 RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) info) {
   if (a.h_m < info.pin_m || b.h_m < info.pin_m) return 0;
-  RG_EXACT float product_m2 = a.h_m * b.h_m;
-  RG_EXACT float cube_m3 = 2.0f * product_m2 * product_m2 / (a.h_m + b.h_m);
+  RG_EXACT float cube_m3 = a.h_m * b.h_m * (0.5f * (a.h_m + b.h_m));
   RG_EXACT float flow = min(cube_m3, min(a.most_m3, b.most_m3)) * (a.pressure - b.pressure);
   int size = min(int(abs(flow) + rounding(info)), (flow > 0.0f ? a.volume_pl : b.volume_pl) >> 3);
   return flow > 0.0f ? size : -size;
