@@ -102,6 +102,7 @@ class Downpour {
     order.info.rupture_chance = 0.001f;
     order.info.evaporation_mps = 1e-9f;
     order.info.drops_allowed = 1;
+    order.info.pressing_mps2 = 8.5f;
     // A raked windscreen at some 50 km/h.
     order.drive.assign(static_cast<size_t>(map_.nodeCount().x * map_.nodeCount().y),
                        {0.3f, -4.9f, 0.1f, 0.2f});
@@ -205,7 +206,7 @@ void main() {
 
 void compare(const GladGLContext& gl, glm::ivec2 grid, int frames) {
   const std::unique_ptr<glass::PaneMap> map = paneOf(grid);
-  glass::FilmGl film(gl, glass::makeFilmPrograms(gl), *map);
+  glass::FilmGl film(gl, glass::makeFilmPrograms(gl), *map, glass::UnevenGlass(*map, 1));
   Downpour downpour(*map);
   Copy copy(gl, *map);
   Stopwatch stopwatch(gl);

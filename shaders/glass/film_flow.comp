@@ -9,6 +9,7 @@ layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of 
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
 layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
 layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // beads: the buffer below
+layout(r32ui, binding = 4) readonly uniform uimageBuffer glass;    // a code for each strip
 layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
 layout(std430, binding = 6) writeonly buffer Lying { uvec4 beads[]; };
 layout(std430, binding = 2) writeonly buffer Report { int tiles[]; }; // FilmTile
@@ -49,9 +50,18 @@ Column columnOf(Corners c, int x) {
 }
 Column columnBeside(int x, int tile_row) { return columnOf(cornersOf(ivec2(x >> 4, tile_row)), x); }
 
-FilmCell cellOf(Column column, int y, int volume_pl, FilmStepInfo step) {
+FilmCell cellOf(Column column, int y, int volume_pl, FilmAround around, int level, FilmStepInfo step) {
   float f = fraction(y);
-  return filmCell(volume_pl, between(column.drive_low, column.drive_high, f), between(column.metric_low, column.metric_high, f), step);
+  return filmCell(volume_pl, around, level, between(column.drive_low, column.drive_high, f), between(column.metric_low, column.metric_high, f), step);
+}
+
+// A row of strips: an invocation's own, with the two texels on either side of it that its law asks for.
+struct Row { ivec4 own, left, right; };
+Row rowOf(int strip) { return Row(imageLoad(before, strip), imageLoad(before, strip - 1), imageLoad(before, strip + 1)); }
+int leftOf(Row row, int k) { return k > 0 ? row.own[(k + 3) % kStripSize] : row.left.w; }
+int rightOf(Row row, int k) { return k + 1 < kStripSize ? row.own[(k + 1) % kStripSize] : row.right.x; }
+FilmAround aroundOf(Row row, int k, int behind_pl, int ahead_pl) {
+  return filmAround(row.own[k], leftOf(row, k), rightOf(row, k), behind_pl, ahead_pl);
 }
 
 // Over an edge that looks up it is blown off, over others it drains.
@@ -70,19 +80,17 @@ Walk walk(ivec2 tile) {
   Column left_column = columnBeside(x - 1, tile.y), right_column = columnBeside(x + kStripSize, tile.y);
   Column columns[kStripSize];
   FilmCell me[kStripSize];
-  uint glass[kStripSize];
-  float entry_m[kStripSize];
   int from_back[kStripSize];
   bool back_off[kStripSize];
-  ivec4 back_pl = imageLoad(before, strip - up * across), my_pl = imageLoad(before, strip);
+  // The rows behind, here and ahead; of the two beyond only what lies in the own columns.
+  Row last = rowOf(strip - up * across), here = rowOf(strip), ahead = rowOf(strip + up * across);
+  ivec4 farthest_back = imageLoad(before, strip - 2 * up * across);
+  uint glass_last = imageLoad(glass, strip - up * across).x, glass_here = imageLoad(glass, strip).x;
   for (int k = 0; k < kStripSize; ++k) {
     columns[k] = columnOf(own, x + k);
-    FilmCell behind = cellOf(columnOf(back, x + k), y - up, back_pl[k], step);
-    me[k] = cellOf(columns[k], y, my_pl[k], step);
-    glass[k] = glassAt(uint(texel + k), step);
-    entry_m[k] = entryThickness_m(me[k], glass[k], step);
-    float entry_behind_m = entryThickness_m(behind, glassAt(uint(texel - up * step.columns + k), step), step);
-    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, entry_behind_m, me[k], me[k].y_pl * up, entry_m[k], step);
+    FilmCell behind = cellOf(columnOf(back, x + k), y - up, last.own[k], aroundOf(last, k, farthest_back[k], here.own[k]), glassLevel(glass_last, k), step);
+    me[k] = cellOf(columns[k], y, here.own[k], aroundOf(here, k, last.own[k], ahead.own[k]), glassLevel(glass_here, k), step);
+    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, me[k], me[k].y_pl * up, step);
     back_off[k] = behind.volume_pl < 0;
   }
 
@@ -90,21 +98,22 @@ Walk walk(ivec2 tile) {
   int over_left = 0, over_right = 0, over_back = 0, over_ahead = 0;
   Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0u), FilmTexel(0, noBeads(), 0, 0), 0);
   for (int row = 0; row < kRows; ++row) {
-    ivec4 next_pl = imageLoad(before, strip + up * across), after_pl;
+    Row beyond = rowOf(strip + 2 * up * across);
+    ivec4 after_pl;
     uvec4 beads_of = imageLoad(lying, strip);
-    FilmCell left = cellOf(left_column, y, imageLoad(before, strip - 1).w, step);
-    FilmCell right = cellOf(right_column, y, imageLoad(before, strip + 1).x, step);
-    float entry_right_m = entryThickness_m(right, glassAt(uint(texel + kStripSize), step), step);
+    uint glass_ahead = imageLoad(glass, strip + up * across).x;
+    FilmAround by_left = filmAround(here.left.w, here.left.z, here.own.x, last.left.w, ahead.left.w);
+    FilmAround by_right = filmAround(here.right.x, here.own.w, here.right.y, last.right.x, ahead.right.x);
+    FilmCell left = cellOf(left_column, y, here.left.w, by_left, glassLevel(glass_here, -1), step);
+    FilmCell right = cellOf(right_column, y, here.right.x, by_right, glassLevel(glass_here, kStripSize), step);
     bool left_off = left.volume_pl < 0;
-    int from_left = flowBetween_pl(left, left.x_pl, entryThickness_m(left, glassAt(uint(texel - 1), step), step), me[0], me[0].x_pl, entry_m[0], step);
+    int from_left = flowBetween_pl(left, left.x_pl, me[0], me[0].x_pl, step);
     for (int k = 0; k < kStripSize; ++k) {
       FilmCell beside = k + 1 < kStripSize ? me[(k + 1) % kStripSize] : right;
-      float entry_beside_m = k + 1 < kStripSize ? entry_m[(k + 1) % kStripSize] : entry_right_m;
-      int to_right = flowBetween_pl(me[k], me[k].x_pl, entry_m[k], beside, beside.x_pl, entry_beside_m, step);
-      FilmCell next = cellOf(columns[k], y + up, next_pl[k], step);
-      uint glass_next = glassAt(uint(texel + up * step.columns + k), step);
-      float entry_next_m = entryThickness_m(next, glass_next, step);
-      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, entry_m[k], next, next.y_pl * up, entry_next_m, step);
+      int to_right = flowBetween_pl(me[k], me[k].x_pl, beside, beside.x_pl, step);
+      FilmCell next = cellOf(columns[k], y + up, ahead.own[k], aroundOf(ahead, k, here.own[k], beyond.own[k]),
+                             glassLevel(glass_ahead, k), step);
+      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, next, next.y_pl * up, step);
 
       bool on = me[k].volume_pl >= 0;
       over_left += on && left_off ? -from_left : 0;
@@ -136,11 +145,13 @@ Walk walk(ivec2 tile) {
       from_left = to_right;
       from_back[k] = to_next;
       me[k] = next;
-      glass[k] = glass_next;
-      entry_m[k] = entry_next_m;
     }
     after[strip] = after_pl;
     beads[strip] = beads_of;
+    last = here;
+    here = ahead;
+    ahead = beyond;
+    glass_here = glass_ahead;
     y += up;
     strip += up * across;
     texel += up * step.columns;

@@ -12,7 +12,7 @@ RG_CONST float kFilmStep_s = 1.0f / 60.0f;
 RG_CONST float kOverfull_m = 300.0e-6f;      // a thicker film is no film: the rest goes to the drops
 RG_CONST float kNusselt_per_m_s = 1000.0f / (3.0f * 1.0e-3f); // rho / (3 mu)
 RG_CONST float kShear_per_pa_s = 1.0f / (2.0f * 1.0e-3f);     // 1 / (2 mu)
-
+RG_CONST float kTension_m3 = kFilmStep_s * 0.072f / (3.0f * 1.0e-3f); // gamma / (3 mu), for a step
 
 // What all texels of a step share.
 struct FilmStepInfo {
@@ -31,7 +31,7 @@ struct FilmStepInfo {
   float bead_mm3_per_pl; // the cube of a bead's base radius, see beadRadius_mm
   float bead_drying_pl_mm; // what a bead loses in a turn to dry in still air, by its base radius
   float bead_airing;     // moving air takes 1 + this sqrt(radius in mm) times as much
-  float unused;
+  float pressing_mps2;   // acceleration onto the glass, mean over the pane; < 0 where it hangs
 };
 RG_SIZE(FilmStepInfo, 64)
 
@@ -41,6 +41,15 @@ struct FilmCell {
   float h_m;
   int x_pl;      // what it wants to give along x: > 0 to x + 1, < 0 to x - 1
   int y_pl;
+  float pressure; // times the cube of a thickness (m^3): the picolitres that pass through a face in a step
+  float most_m3;  // the largest such cube with which a step is stable
+  float entry_m;  // how thick a film must be to pass into it: off the pane and where it is wet it always does
+};
+
+// What a texel's law asks of its four neighbours.
+struct FilmAround {
+  int hollow_pl; // by how much they together stand above it: the film's curvature
+  int least_pl;  // of those on the pane
 };
 
 RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
@@ -56,59 +65,89 @@ RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) {
   return vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m) + vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m);
 }
 
-// Share of its water a texel gives in a step for a velocity of `courant` cells in a step. Up to 1/3 as it is: there the waves, three times as fast,
-// go one cell. Beyond, the flux of a draining film, c ~ V^2, goes on along its tangent, so that waves keep to one cell; never more than half.
+// Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
+RG_CONST float kFastest_cells = 7.0f / 8.0f;
+
+// How much of `courant`, a velocity in cells a step, a texel's water goes. Up to a third of the fastest all of it; beyond, the flux of a draining film,
+// courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Never quite half a cell.
 RG_FN float keptToOneCell(float courant) {
-  if (courant <= 1.0f / 3.0f) return courant;
-  return min(1.0f - (2.0f / 3.0f) * sqrt(1.0f / (3.0f * courant)), 0.5f);
+  float i = 1.0f / max(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
+  return i * i * min(3.0f - 2.0f * i, 1.49f / kFastest_cells);
 }
 
-RG_FN FilmCell filmCell(int volume_pl, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
+// Past the pane's edge the film goes on level; onto dry glass it goes down.
+RG_FN FilmAround filmAround(int volume_pl, int left_pl, int right_pl, int below_pl, int above_pl) {
+  FilmAround around;
+  around.hollow_pl = (left_pl < 0 ? volume_pl : left_pl) + (right_pl < 0 ? volume_pl : right_pl) + (below_pl < 0 ? volume_pl : below_pl) +
+                     (above_pl < 0 ? volume_pl : above_pl) - 4 * volume_pl;
+  // Without sign those off the pane are the greatest.
+  around.least_pl = int(min(min(uint(left_pl), uint(right_pl)), min(uint(below_pl), uint(above_pl))) & 0x7fffffffu);
+  return around;
+}
+
+// Glass is not the same everywhere: levels 0 (easily wetted) .. 31 from glass/uneven_glass.h, five bits each. A strip's code has its own texels'
+// and that of the one on either side.
+RG_CONST int kGlassLevels = 32;
+RG_FN int glassLevel(uint code, int k) { return int(code >> uint(5 * (k + 1))) & (kGlassLevels - 1); }
+RG_FN float unevenness(int level) { return float(level) * (2.0f / 31.0f) - 1.0f; } // -1 .. 1
+
+// Tangent of the largest turn that uneven glass gives a contact line's way, and so what runs there (unsourced).
+RG_CONST float kMostTurn = 0.6f;
+
+// Where it has dry glass beside it a stream follows its edge, whose way over uneven glass is not straight down.
+RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y, along.x)) / (1.0f + turn * turn); }
+
+// A step's explicit differences damp what changes from texel to texel by 64 of tension's and 8 of weight's share, and waves by twice their way: beyond
+// two in all it would grow. What waves leave of two, less some of it, so that what alternates dies away within a few steps.
+RG_CONST float kStable = 1.4f;
+
+// Pressure of lubrication theory, p = rho g cos a h - gamma lap h (Oron, Davis & Bankoff 1997, Rev. Mod. Phys. 69), whose flux is
+// -h^3 / (3 mu) grad p. As if texels were square and their neighbours as large as they.
+RG_FN void press(RG_INOUT(FilmCell) cell, int hollow_pl, float courant, float per_m2, RG_IN(FilmStepInfo) info) {
+  RG_EXACT float weight = kNusselt_per_m_s * kFilmStep_s * info.pressing_mps2 * per_m2, tension = kTension_m3 * per_m2 * per_m2;
+  RG_EXACT float pressure = weight * float(cell.volume_pl) - tension * float(hollow_pl);
+  cell.pressure = pressure;
+  RG_EXACT float most_m3 = kStable * (1.0f - min(3.0f * courant, kFastest_cells)) / (64.0f * tension + 8.0f * abs(weight));
+  cell.most_m3 = most_m3;
+}
+
+RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmCell cell;
   cell.volume_pl = volume_pl;
   cell.h_m = thickness_m(volume_pl, metric);
   cell.x_pl = 0;
   cell.y_pl = 0;
+  cell.pressure = 0.0f;
+  cell.most_m3 = 0.0f;
+  cell.entry_m = volume_pl < 0 || cell.h_m >= info.pin_m ? 0.0f : info.front_m * (1.0f + 0.5f * unevenness(glass));
   if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
   vec2 u = filmVelocity(cell.h_m, drive);
-  float cx = u.x * kFilmStep_s / metric.x;
-  float cy = u.y * kFilmStep_s / metric.y;
+  if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
+  float per_cells = kFilmStep_s / (metric.x * metric.y);
+  float cx = u.x * metric.y * per_cells, cy = u.y * metric.x * per_cells;
   float courant = abs(cx) + abs(cy);
-  if (courant <= 0.0f) return cell;
-  float scale = float(volume_pl) * (keptToOneCell(courant) / courant);
+  press(cell, around.hollow_pl, courant, metric.z, info);
+  float scale = float(volume_pl) * keptToOneCell(courant);
   cell.x_pl = int(floor(cx * scale + 0.5f));
   cell.y_pl = int(floor(cy * scale + 0.5f));
   return cell;
 }
 
-// Glass is not the same everywhere: what sets a texel apart from others.
-RG_FN uint glassAt(uint texel, RG_IN(FilmStepInfo) info) { return pcg(texel ^ info.pane); }
+// Films flow slowly: picolitres below one count as often as their share of one, for all faces in the same steps.
+RG_FN float rounding(RG_IN(FilmStepInfo) info) { return unitFloat(pcg(info.step)); }
 
-// How thick a film must be to run onto this texel when it is dry, by what glass is there: so fronts turn into fingers.
-RG_FN float frontThickness_m(uint glass, RG_IN(FilmStepInfo) info) { return info.front_m * (0.5f + unitFloat(glass)); }
-
-// How thick a film must be to pass into a texel: onto dry glass as above; where it is wet, and over the pane's edge, it always does.
-RG_FN float entryThickness_m(RG_IN(FilmCell) to, uint glass, RG_IN(FilmStepInfo) info) {
-  float front_m = frontThickness_m(glass, info);
-  return to.volume_pl < 0 || to.h_m >= info.pin_m ? 0.0f : front_m;
-}
-
-// Surface tension between neighbours, out of a into b; the same with a minus sign from b's side. A share of the difference, small beside
-// drainage and chosen so; never more than an eighth of what is there.
+// Surface tension and weight between neighbours, out of a into b; the same with a minus sign from b's side. Never more than an eighth of what is there.
 RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) info) {
   if (a.h_m < info.pin_m || b.h_m < info.pin_m) return 0;
-  int difference = a.volume_pl - b.volume_pl;
-  int size = min(abs(difference) >> 5, max(a.volume_pl, b.volume_pl) >> 3);
-  return difference > 0 ? size : -size;
+  RG_EXACT float cube_m3 = a.h_m * b.h_m * (0.5f * (a.h_m + b.h_m));
+  RG_EXACT float flow = min(cube_m3, min(a.most_m3, b.most_m3)) * (a.pressure - b.pressure);
+  int size = min(int(abs(flow) + rounding(info)), (flow > 0.0f ? a.volume_pl : b.volume_pl) >> 3);
+  return flow > 0.0f ? size : -size;
 }
 
-// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it; `a_entry_m`, `b_entry_m`:
-// entryThickness_m of both.
-RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, float a_entry_m, RG_IN(FilmCell) b, int b_pl, float b_entry_m, RG_IN(FilmStepInfo) info) {
-  return levelled_pl(a, b, info) + (a.h_m >= b_entry_m ? max(a_pl, 0) : 0) + (b.h_m >= a_entry_m ? min(b_pl, 0) : 0);
-}
-RG_FN int faceFlow_pl(RG_IN(FilmCell) a, int a_pl, uint a_texel, RG_IN(FilmCell) b, int b_pl, uint b_texel, RG_IN(FilmStepInfo) info) {
-  return flowBetween_pl(a, a_pl, entryThickness_m(a, glassAt(a_texel, info), info), b, b_pl, entryThickness_m(b, glassAt(b_texel, info), info), info);
+// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it.
+RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, RG_IN(FilmCell) b, int b_pl, RG_IN(FilmStepInfo) info) {
+  return levelled_pl(a, b, info) + (a.h_m >= b.entry_m ? max(a_pl, 0) : 0) + (b.h_m >= a.entry_m ? min(b_pl, 0) : 0);
 }
 
 // A tile dries in every eighth step, for all eight: what else lies still on it need not be looked at in the steps between.
@@ -142,9 +181,9 @@ struct FilmTexel {
 
 RG_CONST float kWhole_m = 0.5e-6f; // a thinner film dries before it breaks (unsourced)
 
-// Whether a film breaks up in its turn to dry: as the glass there is, and by chance each time.
+// Whether a film breaks up in its turn to dry: by chance.
 RG_FN bool breaksUp(float h_m, uint texel, RG_IN(FilmStepInfo) info) {
-  return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(glassAt(texel, info) + info.step)) < info.rupture_chance;
+  return h_m > kWhole_m && h_m <= info.rupture_m && unitFloat(pcg(pcg(texel ^ info.pane) + info.step)) < info.rupture_chance;
 }
 
 RG_FN FilmTexel asItIs(int film_pl, RG_IN(Beads) lying) {

@@ -203,7 +203,7 @@ class BeadsOnGlass : public GlTest {
     Bench(const GladGLContext& gl, double width_m, double height_m)
         : mesh(windscreen(width_m, height_m, 1e-4)),
           sim(paneInfo(mesh), 1, 7),
-          gpu(gl, glass::makeFilmPrograms(gl), sim.map()),
+          gpu(gl, glass::makeFilmPrograms(gl), sim.map(), sim.unevenness()),
           info(uncoated()) {
       info.columns = sim.map().grid().size.x;
       info.rows = sim.map().grid().size.y;

@@ -7,14 +7,15 @@
 
 #include "glass/film_order.h"
 #include "glass/pane_map.h"
+#include "glass/uneven_glass.h"
 #include "shared/glass_wiper.glsl"
 
 namespace rg::test {
 
 class FilmReference {
  public:
-  explicit FilmReference(const glass::PaneMap& map)
-      : map_(map), columns_(map.grid().size.x), rows_(map.grid().size.y), ridge_(glass::kRidgePieces, 0) {
+  FilmReference(const glass::PaneMap& map, const glass::UnevenGlass& glass)
+      : map_(map), glass_(glass), columns_(map.grid().size.x), rows_(map.grid().size.y), ridge_(glass::kRidgePieces, 0) {
     for (int i = 0; i < map.texelCount(); ++i) film.push_back(map.inside(i) ? 0 : -1);
     beads.assign(film.size(), 0);
   }
@@ -103,9 +104,9 @@ class FilmReference {
     std::vector<shared::FilmCell> cells(film.size());
     for (int i = 0; i < map_.texelCount(); ++i) {
       const int x = i % columns_, y = i / columns_;
-      cells[static_cast<size_t>(i)] = at(i) > 0 ? shared::filmCell(at(i), field(order.drive, x, y),
-                                                                   field(map_.nodeMetric(), x, y), order.info)
-                                                : shared::FilmCell{at(i), 0.0f, 0, 0};
+      cells[static_cast<size_t>(i)] =
+          shared::filmCell(at(i), around(i), glass_.level(i), field(order.drive, x, y),
+                           field(map_.nodeMetric(), x, y), order.info);
     }
     const int tiles_across = map_.tileCount().x;
     std::vector<shared::FilmTexel> settled(film.size());
@@ -136,6 +137,12 @@ class FilmReference {
     }
   }
 
+  // What lies on the pane's rim has no film, and asks nothing.
+  shared::FilmAround around(int i) {
+    if (at(i) < 0) return {};
+    return shared::filmAround(at(i), at(i - 1), at(i + 1), at(i - columns_), at(i + columns_));
+  }
+
   void dry(const shared::FilmStepInfo& info, glass::FilmReport& report) {
     for (int i = 0; i < map_.texelCount(); ++i) {
       const int x = i % columns_, y = i / columns_;
@@ -160,12 +167,10 @@ class FilmReference {
     int volume = me.volume_pl;
     const auto face = [&](int step, bool along_x, glm::vec2 outward) {
       const shared::FilmCell& other = cells[static_cast<size_t>(i + step)];
-      const auto a = static_cast<uint32_t>(step < 0 ? i + step : i),
-                 b = static_cast<uint32_t>(step < 0 ? i : i + step);
       const shared::FilmCell& low = step < 0 ? other : me;
       const shared::FilmCell& high = step < 0 ? me : other;
-      const int flow = shared::faceFlow_pl(low, along_x ? low.x_pl : low.y_pl, a, high,
-                                           along_x ? high.x_pl : high.y_pl, b, info);
+      const int flow = shared::flowBetween_pl(low, along_x ? low.x_pl : low.y_pl, high,
+                                              along_x ? high.x_pl : high.y_pl, info);
       const int out = step < 0 ? -flow : flow;
       volume -= out;
       if (other.volume_pl < 0)
@@ -179,6 +184,7 @@ class FilmReference {
   }
 
   const glass::PaneMap& map_;
+  const glass::UnevenGlass& glass_;
   int columns_, rows_;
   std::vector<int32_t> ridge_;
 };

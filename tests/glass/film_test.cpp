@@ -69,7 +69,7 @@ TEST_F(Film, drainsAsJeffreysSays) {
   const Mesh mesh = windscreen(0.06, 0.8, slope);
   const glass::PaneInfo info = filmOnly(mesh);
   glass::PaneSim sim(info, 1, 7);
-  FilmReference film(sim.map());
+  FilmReference film(sim.map(), sim.unevenness());
   for (int i = 0; i < sim.map().texelCount(); ++i) {
     if (sim.map().inside(i))
       film.film[static_cast<size_t>(i)] =
@@ -122,9 +122,9 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
   sim.setWiper(3, worn);
   const WiperMotor motor(3, rad(20), rad(150), 70.0);
   sim.attachFilm();
-  FilmReference reference(sim.map());
+  FilmReference reference(sim.map(), sim.unevenness());
   const auto programs = glass::makeFilmPrograms(gl);
-  glass::FilmGl gpu(gl, programs, sim.map());
+  glass::FilmGl gpu(gl, programs, sim.map(), sim.unevenness());
   int64_t took = 0, swept = 0, left = 0, wiped = 0, events = 0;
   for (int64_t index = 1; index <= 480; ++index) {
     glass::PaneTick tick = weather(100.0, 20.0, 0.5);
@@ -171,8 +171,8 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
 TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
   const Mesh mesh = windscreen(0.3, 0.2, rad(30));
   glass::PaneSim sim(filmOnly(mesh), 1, 7);
-  FilmReference reference(sim.map());
-  glass::FilmGl gpu(gl, glass::makeFilmPrograms(gl), sim.map());
+  FilmReference reference(sim.map(), sim.unevenness());
+  glass::FilmGl gpu(gl, glass::makeFilmPrograms(gl), sim.map(), sim.unevenness());
   shared::FilmStepInfo info{};
   info.columns = sim.map().grid().size.x;
   info.rows = sim.map().grid().size.y;
@@ -222,7 +222,7 @@ TEST(FilmLaw, giveAndTakeAgreeAtEveryFace) {
     const shared::vec4 drive(shared::unitFloat(h.x) * 20.0f - 10.0f, 3.0f, shared::unitFloat(h.y) - 0.5f,
                              0.1f);
     const auto volume = static_cast<int>(shared::unitFloat(h.z) * shared::unitFloat(h.z) * 2e7f);
-    const shared::FilmCell cell = shared::filmCell(volume, drive, metric, info);
+    const shared::FilmCell cell = shared::filmCell(volume, {0, volume}, 0, drive, metric, info);
     // Half of what is there at most, so that surface tension's four eighths leave nothing negative; one for
     // rounding.
     ASSERT_LE(std::abs(cell.x_pl) + std::abs(cell.y_pl), volume / 2 + 2);

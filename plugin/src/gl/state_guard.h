@@ -22,7 +22,7 @@ namespace rg::gl {
 // units; of shader storage it promises 8 bindings, of uniform buffers 36.
 inline constexpr int kTextureUnits =
     8;  // of kinds 2D, 2D array, 3D and cube map; never unbound with name 0, which would unbind all kinds
-inline constexpr int kImageUnits = 4;
+inline constexpr int kImageUnits = 5;
 inline constexpr int kUniformBindings = 4;
 inline constexpr int kStorageBindings = 8;
 inline constexpr int kDrawBuffers = 4;  // fragment outputs

@@ -14,8 +14,6 @@ constexpr double kBoundaryLayer_m =
     10e-3;  // thickness of the air's boundary layer on the glass (unsourced); profile: one-seventh power
 constexpr double kFastest_mps =
     1.0;  // nothing faster than 0.7 m/s was seen sliding (Li et al. 2023); wind may add
-constexpr double kMeander = 0.35;  // tangent of the largest turn that uneven glass gives a path (unsourced)
-constexpr double kMeanderCell_m = 6e-3;
 constexpr int kMostAside = 2;  // texels
 
 // Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
@@ -26,14 +24,6 @@ glm::dvec2 drag_n(const Drop& drop, glm::dvec2 air_mps, double width_m) {
   const double outline_m2 = 2.0 / 3.0 * height_m * width_m;
   return 0.5 * kRhoAir_kg_m3 * outline_m2 * speed * glm::length(air_mps) * air_mps /
          std::max(1e-9, glm::length(air_mps));
-}
-
-// Uneven glass: a turn of the path that depends on the place alone.
-double turnAt(glm::dvec2 place_m, uint32_t pane) {
-  const auto x = static_cast<uint32_t>(place_m.x / kMeanderCell_m),
-             y = static_cast<uint32_t>(place_m.y / kMeanderCell_m);
-  return kMeander *
-         (2.0 * static_cast<double>(shared::unitFloat(shared::pcg(x + shared::pcg(y ^ pane)))) - 1.0);
 }
 
 }  // namespace
@@ -76,7 +66,8 @@ void Drops::slide(const DropWorld& world, int slot) {
   drop.braced = false;
 
   const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
-  const double turn = turnAt(drop.place_m, world.pane);
+  // Uneven glass: a turn of the path that depends on the place alone.
+  const double turn = static_cast<double>(shared::kMostTurn * shared::unevenness(world.glass.level(drop.texel)));
   const glm::dvec2 path = (toward + turn * glm::dvec2(-toward.y, toward.x)) / std::sqrt(1.0 + turn * turn);
   const double friction_kg_s = surface_.friction * width_m * kMu_pa_s;
   const double aim_mps = std::min(std::max(0.0, force - hold_n) / friction_kg_s, kFastest_mps);

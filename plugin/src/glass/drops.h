@@ -11,6 +11,7 @@
 #include "glass/impact.h"
 #include "glass/ledger.h"
 #include "glass/pane_map.h"
+#include "glass/uneven_glass.h"
 #include "glass/water.h"
 
 namespace rg::glass {
@@ -43,6 +44,7 @@ struct alignas(32) Drop {
 // What drops of a pane have in common during a tick.
 struct DropWorld {
   const PaneMap& map;
+  const UnevenGlass& glass;
   const Surface& surface;
   const ForceField& forces;
   FilmLink& film;

@@ -54,6 +54,25 @@ void put(std::vector<unsigned char>& bytes, size_t at, const T* data, size_t cou
   if (count > 0) std::memcpy(bytes.data() + at, data, count * sizeof(T));
 }
 
+// As glassLevel reads them, in rows of whole tiles. Past the grid's edges there is none to ask.
+std::vector<uint32_t> stripCodes(const PaneMap& map, const UnevenGlass& glass) {
+  const glm::ivec2 size = map.grid().size, strips = map.tileCount() * (shared::kTileSize / glm::ivec2(shared::kStripSize, 1));
+  std::vector<uint32_t> codes;
+  codes.reserve(static_cast<size_t>(strips.x * strips.y));
+  for (int y = 0; y < strips.y; ++y) {
+    for (int strip = 0; strip < strips.x; ++strip) {
+      uint32_t code = 0;
+      for (int k = -1; k <= shared::kStripSize; ++k) {
+        const int x = strip * shared::kStripSize + k;
+        if (x < 0 || x >= size.x || y >= size.y) continue;
+        code |= static_cast<uint32_t>(glass.level(y * size.x + x)) << static_cast<uint32_t>(5 * (k + 1));
+      }
+      codes.push_back(code);
+    }
+  }
+  return codes;
+}
+
 }  // namespace
 
 FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky)
@@ -72,7 +91,8 @@ void abandonFilmPrograms(FilmPrograms& p) {
   for (gl::Program* program : {&p.change, &p.sweep, &p.leave, &p.wake, &p.dry, &p.flow}) program->forget();
 }
 
-FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map)
+FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map,
+               const UnevenGlass& glass)
     : gl_(gl),
       programs_(std::move(programs)),
       map_(map),
@@ -83,12 +103,15 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       states_(gl, tiles_ * kTileStateBytes),
       awake_(gl, sizeof kNoneAwake + 2 * tiles_ * sizeof(int32_t)),
       metric_(gl, std::span<const shared::vec4>(map.nodeMetric())),
+      glass_(gl, std::span<const uint32_t>(stripCodes(map, glass))),
       metric_nodes_(gl),
       drive_nodes_(gl),
+      glass_strips_(gl),
       picture_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
       beads_picture_(gl, GL_R32UI, map.grid().size.x, map.grid().size.y),
       change_of_(static_cast<size_t>(map.texelCount()), -1) {
   metric_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), metric_, 0, metric_.bytes());
+  glass_strips_.show(GL_R32UI, sizeof(uint32_t), glass_, 0, glass_.bytes());
   for (size_t i = 0; i < film_.size(); ++i) {
     film_[i] = gl::Buffer(gl, tiles_ * kTileTexels * sizeof(int32_t));
     film_strips_[i] = gl::BufferTexture(gl);
@@ -276,6 +299,7 @@ void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, s
   image(1, metric_nodes_, GL_RGBA32F);
   image(2, drive_nodes_, GL_RGBA32F);
   image(3, beads_strips_, GL_RGBA32UI);
+  image(4, glass_strips_, GL_R32UI);
   gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
                       static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, awake_.name());
@@ -390,7 +414,7 @@ std::vector<int32_t> FilmGl::readRidges() const {
 void FilmGl::abandon() {
   for (gl::Buffer& film : film_) film.forget();
   for (gl::BufferTexture& strips : film_strips_) strips.forget();
-  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_, &beads_strips_}) nodes->forget();
+  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_, &glass_strips_, &beads_strips_}) nodes->forget();
   picture_.forget();
   beads_picture_.forget();
   beads_.forget();
@@ -398,6 +422,7 @@ void FilmGl::abandon() {
   states_.forget();
   awake_.forget();
   metric_.forget();
+  glass_.forget();
   for (Swept& swept : swept_) swept.buffer.forget();
   while (!pending_.empty()) {
     free_.push_back(std::move(pending_.front()));

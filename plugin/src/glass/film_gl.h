@@ -13,6 +13,7 @@
 #include "glass/film_order.h"
 #include "glass/pane_gl.h"
 #include "glass/pane_map.h"
+#include "glass/uneven_glass.h"
 
 namespace rg::glass {
 
@@ -24,7 +25,8 @@ class FilmPrograms {
 
 class FilmGl {
  public:
-  FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map);
+  FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map,
+         const UnevenGlass& glass);
 
   // Puts the steps in the GPU's queue, as batches.
   void run(std::vector<FilmOrder>&& orders);
@@ -84,8 +86,8 @@ class FilmGl {
   size_t turn_ = 0;
   gl::Buffer beads_;  // lie where they are: one copy will do
   gl::BufferTexture beads_strips_;
-  gl::Buffer ridges_, states_, awake_, metric_;
-  gl::BufferTexture metric_nodes_, drive_nodes_;
+  gl::Buffer ridges_, states_, awake_, metric_, glass_;
+  gl::BufferTexture metric_nodes_, drive_nodes_, glass_strips_;
   gl::Texture2D picture_, beads_picture_;
   bool picture_is_old_ = true, beads_picture_is_old_ = true;
   std::vector<int> change_of_;  // texel: its place among a step's changes, -1 between steps

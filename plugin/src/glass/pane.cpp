@@ -12,6 +12,7 @@
 #include "glass/impact.h"
 #include "glass/random.h"
 #include "glass/slide.h"
+#include "glass/uneven_glass.h"
 #include "glass/washer.h"
 #include "shared/glass_beads.glsl"
 #include "tick.h"
@@ -63,6 +64,8 @@ struct PaneSim::State {
         film_enabled(info.film_enabled),
         surface(surfaceFor(info)),
         map(info),
+        mean_normal(meanNormal(map)),
+        uneven(map, chance()),
         mesh(info, map),
         slide(info, map),
         film(map, ledger),
@@ -75,7 +78,7 @@ struct PaneSim::State {
   };
 
   DropWorld world() {
-    return {map,  surface, forces,    film,         ledger,
+    return {map,  uneven, surface, forces,    film,         ledger,
             seed, id,      now.index, now.humidity, saturatedVapour_kg_m3(now.temperature_c)};
   }
   bool ready() const { return (ticks + 1) % kTicksPerFilmStep != 0 || film.reported(stepUsedBy(ticks + 1)); }
@@ -91,6 +94,14 @@ struct PaneSim::State {
   void place(std::span<const PlacedDrop> list);
   void checkPlaces(std::span<const PlacedDrop> list) const;
 
+  uint32_t chance() const { return id ^ static_cast<uint32_t>(seed); }
+  // Outward; where the pane bends not of unit length, so that products with it are the pane's means.
+  static glm::dvec3 meanNormal(const PaneMap& map) {
+    glm::dvec3 sum(0.0);
+    for (int region = 0; region < kRegions; ++region) sum += map.regionArea_m2(region);
+    return sum / map.area_m2();
+  }
+
   mutable std::mutex mutex;
   std::string name;
   uint32_t id;
@@ -98,6 +109,8 @@ struct PaneSim::State {
   bool film_enabled;
   Surface surface;
   PaneMap map;
+  glm::dvec3 mean_normal;
+  UnevenGlass uneven;
   PaneMesh mesh;
   Slide slide;
   size_t slid = 0, slid_on_film = 0;  // texels behind the sill, of slide's order; of which the film knows
@@ -207,7 +220,7 @@ void PaneSim::State::closeFilmStep() {
   info.columns = map.grid().size.x;
   info.rows = map.grid().size.y;
   info.step = static_cast<uint32_t>(now.index);
-  info.pane = id ^ static_cast<uint32_t>(seed);
+  info.pane = chance();
   info.up_x = static_cast<float>(map.up().x);
   info.up_y = static_cast<float>(map.up().y);
   info.pin_m = static_cast<float>(surface.pin_m);
@@ -230,6 +243,7 @@ void PaneSim::State::closeFilmStep() {
       evaporation_kg_s(1e-3, angle, std::min(now.humidity, 1.0), saturated_kg_m3) / kRho_kg_m3 *
       kPicolitresPerM3 * shared::kDryingSteps * kTicksPerFilmStep * kTickSeconds);
   info.bead_airing = static_cast<float>(ventilation(air_mps, 2e-3) - 1.0);
+  info.pressing_mps2 = static_cast<float>(-glm::dot(now.acceleration_mps2, mean_normal));
   film.close(ticks / kTicksPerFilmStep, forces.filmDrive(), info);
 }
 
@@ -297,6 +311,7 @@ PaneSim::PaneSim(const PaneInfo& info, uint32_t id, uint64_t seed)
 PaneSim::~PaneSim() = default;
 
 const PaneMap& PaneSim::map() const { return state_->map; }
+const UnevenGlass& PaneSim::unevenness() const { return state_->uneven; }
 const PaneMesh& PaneSim::mesh() const { return state_->mesh; }
 const Slide& PaneSim::slide() const { return state_->slide; }
 const std::string& PaneSim::name() const { return state_->name; }

@@ -19,6 +19,7 @@
 namespace rg::glass {
 
 class PaneMap;
+class UnevenGlass;
 struct PaneMesh;
 class Slide;
 class Drops;
@@ -159,7 +160,8 @@ class PaneSim {
   PaneSim(const PaneSim&) = delete;
   PaneSim& operator=(const PaneSim&) = delete;
 
-  const PaneMap& map() const;  // but for what is shown of it, immutable after construction
+  const PaneMap& map() const;             // but for what is shown of it, immutable after construction
+  const UnevenGlass& unevenness() const;  // immutable
   const PaneMesh& mesh() const;
   const Slide& slide() const;  // where it slides to never changes
   const std::string& name() const;

@@ -88,7 +88,7 @@ struct PaneGl::Parts {
   Parts(const GladGLContext& context, std::shared_ptr<FilmPrograms> programs, std::shared_ptr<PaneSim> pane)
       : gl(context),
         sim(std::move(pane)),
-        film(gl, std::move(programs), sim->map()),
+        film(gl, std::move(programs), sim->map(), sim->unevenness()),
         maps(makeMaps(gl, sim->map())) {
     open(0.0);
   }

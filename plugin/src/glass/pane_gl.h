@@ -54,7 +54,7 @@ struct PaneDrawn {
 };
 
 // [thread: GL, context current] GL state is not restored here (the caller's guard does): touches program,
-// buffer bindings (SSBO 0..7, UBO 0, pixel unpack), image units 0..3, pixel store, textures none.
+// buffer bindings (SSBO 0..7, UBO 0, pixel unpack), image units 0..4, pixel store, textures none.
 class PaneGl {
  public:
   PaneGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, std::shared_ptr<PaneSim> sim);
