@@ -152,7 +152,7 @@ class PaneSim {
   PaneSim(const PaneSim&) = delete;
   PaneSim& operator=(const PaneSim&) = delete;
 
-  const PaneMap& map() const;  // immutable after construction
+  const PaneMap& map() const;             // immutable after construction
   const UnevenGlass& unevenness() const;  // likewise
   const PaneMesh& mesh() const;
   const std::string& name() const;
