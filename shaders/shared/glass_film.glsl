@@ -43,13 +43,14 @@ struct FilmCell {
   int y_pl;
   float pressure; // times the cube of a thickness (m^3): the picolitres that pass through a face in a step
   float most_m3;  // the largest such cube with which a step is stable
-  float entry_m;  // how thick a film must be to pass into it: off the pane and where it is wet it always does
+  float entry_m;  // how thick a film must be that is driven straight into it: 0 off the pane and where it is wet
 };
 
 // What a texel's law asks of its four neighbours.
 struct FilmAround {
   int hollow_pl; // by how much they together stand above it: the film's curvature
   int least_pl;  // of those on the pane
+  int gap_pl;    // the lesser of two that lie opposite each other, of the pair that has more
 };
 
 RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
@@ -82,6 +83,7 @@ RG_FN FilmAround filmAround(int volume_pl, int left_pl, int right_pl, int below_
                      (above_pl < 0 ? volume_pl : above_pl) - 4 * volume_pl;
   // Without sign those off the pane are the greatest.
   around.least_pl = int(min(min(uint(left_pl), uint(right_pl)), min(uint(below_pl), uint(above_pl))) & 0x7fffffffu);
+  around.gap_pl = max(min(left_pl, right_pl), min(below_pl, above_pl));
   return around;
 }
 
@@ -92,7 +94,7 @@ RG_FN int glassLevel(uint code, int k) { return int(code >> uint(5 * (k + 1))) &
 RG_FN float unevenness(int level) { return float(level) * (2.0f / 31.0f) - 1.0f; } // -1 .. 1
 
 // Tangent of the largest turn that uneven glass gives a contact line's way, and so what runs there (unsourced).
-RG_CONST float kMostTurn = 0.6f;
+RG_CONST float kMostTurn = 0.75f;
 
 // Where it has dry glass beside it a stream follows its edge, whose way over uneven glass is not straight down.
 RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y, along.x)) / (1.0f + turn * turn); }
@@ -119,7 +121,9 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   cell.y_pl = 0;
   cell.pressure = 0.0f;
   cell.most_m3 = 0.0f;
-  cell.entry_m = volume_pl < 0 || cell.h_m >= info.pin_m ? 0.0f : info.front_m * (1.0f + 0.5f * unevenness(glass));
+  cell.entry_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
+  // Two fronts that meet over a texel take it between them.
+  if (volume_pl < 0 || cell.h_m >= info.pin_m || 2.0f * thickness_m(around.gap_pl, metric) >= cell.entry_m) cell.entry_m = 0.0f;
   if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
   vec2 u = filmVelocity(cell.h_m, drive);
   if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
@@ -145,9 +149,14 @@ RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) 
   return flow > 0.0f ? size : -size;
 }
 
+// Whether it overcomes what holds the contact line that lies between: what drives the film is as its thickness, and but a part of it goes that way.
+RG_FN bool enters(RG_IN(FilmCell) from, int along_pl, RG_IN(FilmCell) to) {
+  return from.h_m * float(abs(along_pl)) >= to.entry_m * float(max(abs(from.x_pl), abs(from.y_pl)));
+}
+
 // What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it.
 RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, RG_IN(FilmCell) b, int b_pl, RG_IN(FilmStepInfo) info) {
-  return levelled_pl(a, b, info) + (a.h_m >= b.entry_m ? max(a_pl, 0) : 0) + (b.h_m >= a.entry_m ? min(b_pl, 0) : 0);
+  return levelled_pl(a, b, info) + (enters(a, a_pl, b) ? max(a_pl, 0) : 0) + (enters(b, b_pl, a) ? min(b_pl, 0) : 0);
 }
 
 // A tile dries in every eighth step, for all eight: what else lies still on it need not be looked at in the steps between.

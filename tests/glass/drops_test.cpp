@@ -169,8 +169,8 @@ TEST(Drops, windSortsThemBySize) {
     scene.place(0.0, 0.1, 0.5e-3 * diameter_mm, rad(100));
     const double start = 0.1;
     scene.run(weather(0.0, speed_mps), 0.4);
+    if (scene.sim->stats().blown_pl > 0) return 9.0;  // over the top; pearls of it may be left
     const auto after = scene.sim->snapshot();
-    if (after->drops.empty()) return 9.0;
     const glass::PaneMap& map = scene.sim->map();
     return map.glassFromGrid(glm::dvec2(after->drops[0].position_m)).y - start;
   };

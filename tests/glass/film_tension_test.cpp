@@ -1,88 +1,17 @@
-// Surface tension and weight spread a film as lubrication theory says: by the production kernel on panes that lie
-// level, with films laid texel by texel.
+// Surface tension and weight spread a film as lubrication theory says: by the production kernel on panes that
+// lie level, with films laid texel by texel.
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "gl_fixture.h"
-#include "glass/film_gl.h"
-#include "scene.h"
+#include "lone_film.h"
 
 namespace rg::test {
 namespace {
 
 constexpr double kGammaOverMu = 0.072 / 1.0e-3, kStepOfFilm_s = 1.0 / 60.0;
 
-// A film on a flat pane of whole texels, by itself: no rain, no drops, nothing that dries.
-class LoneFilm {
- public:
-  LoneFilm(const GladGLContext& gl, glm::ivec2 texels, double texel_m)
-      : texels_(texels), texel_m_(texel_m), map_(infoOf(texels, texel_m)), film_(gl, glass::makeFilmPrograms(gl), map_, glass::UnevenGlass(map_, 1)) {}
-
-  // Thickness by the place of a texel's middle, metres from the first one's outer corner.
-  template <class Thickness>
-  void lay(const Thickness& thickness_m) {
-    for (int y = 0; y < texels_.y; ++y) {
-      for (int x = 0; x < texels_.x; ++x)
-        adds_.push_back({at(x, y), static_cast<int>(std::lround(thickness_m(texel_m_ * (glm::dvec2(x, y) + 0.5)) *
-                                                                texel_m_ * texel_m_ * 1e15))});
-    }
-  }
-
-  // `pressing`: acceleration onto the glass, `down`: along it to its lower edge.
-  void run(int steps, double pressing_mps2, double down_mps2 = 0.0) {
-    for (int k = 0; k < steps; ++k, ++step_) {
-      std::vector<glass::FilmOrder> orders(1);
-      glass::FilmOrder& order = orders[0];
-      order.step = step_;
-      order.adds = std::exchange(adds_, {});
-      order.info.columns = map_.grid().size.x;
-      order.info.rows = map_.grid().size.y;
-      order.info.step = static_cast<uint32_t>(2 * step_);
-      order.info.up_y = 1.0f;
-      order.info.pin_m = 3e-6f;
-      order.info.front_m = 40e-6f;
-      order.info.pressing_mps2 = static_cast<float>(pressing_mps2);
-      order.drive.assign(map_.nodes().size(), {0.0f, static_cast<float>(-down_mps2), 0.0f, 0.0f});
-      film_.run(std::move(orders));
-      film_.collect(true);
-    }
-  }
-
-  std::vector<double> thickness_m() const {
-    const std::vector<int32_t> film = film_.readFilm();
-    std::vector<double> out;
-    for (int y = 0; y < texels_.y; ++y) {
-      for (int x = 0; x < texels_.x; ++x)
-        out.push_back(film[static_cast<size_t>(at(x, y))] * 1e-15 / (texel_m_ * texel_m_));
-    }
-    return out;
-  }
-  int64_t volume_pl() const {
-    const std::vector<int32_t> film = film_.readFilm();
-    return std::accumulate(film.begin(), film.end(), int64_t{0},
-                           [](int64_t sum, int32_t volume) { return sum + std::max(volume, 0); });
-  }
-
- private:
-  static glass::PaneMap infoOf(glm::ivec2 texels, double texel_m) {
-    // Half a texel less than whole ones: texels' middles decide what is glass.
-    const Mesh mesh = windscreen((texels.x - 0.5) * texel_m, (texels.y - 0.5) * texel_m, 0.0);
-    glass::PaneInfo info = paneInfo(mesh);
-    info.texel_m = texel_m;
-    return glass::PaneMap(info);
-  }
-  int at(int x, int y) const { return (y + 1) * map_.grid().size.x + x + 1; }
-
-  glm::ivec2 texels_;
-  double texel_m_;
-  glass::PaneMap map_;
-  glass::FilmGl film_;
-  std::vector<shared::FilmAdd> adds_;
-  int64_t step_ = 0;
-};
-
-// h^3 k^2 (rho g + gamma k^2) / (3 mu): a small wave of wave number k on a level film decays so fast (Oron, Davis & Bankoff 1997).
+// h^3 k^2 (rho g + gamma k^2) / (3 mu): a small wave of wave number k on a level film decays so fast (Oron,
+// Davis & Bankoff 1997).
 double decay_per_s(double h_m, double k_per_m, double pressing_mps2) {
   return std::pow(h_m, 3.0) * k_per_m * k_per_m / 3.0 *
          (1.0e6 * pressing_mps2 + kGammaOverMu * k_per_m * k_per_m);
@@ -91,10 +20,13 @@ double decay_per_s(double h_m, double k_per_m, double pressing_mps2) {
 class FilmTension : public GlTest {
  protected:
   // Measured decay of a wave, by the law's. It stands still at the pane's edges; `across` of them along y.
-  double decayByTheLaw(double h_m, double wave_m, double pressing_mps2, double texel_m, bool both_ways = false) {
+  double decayByTheLaw(double h_m, double wave_m, double pressing_mps2, double texel_m,
+                       bool both_ways = false) {
     const int along = static_cast<int>(std::lround(wave_m / texel_m)), across = both_ways ? along : 6;
     const double k = 2.0 * kPi / wave_m, total_k = both_ways ? k * std::numbers::sqrt2 : k;
-    const auto shape = [&](glm::dvec2 p) { return std::cos(k * p.x) * (both_ways ? std::cos(k * p.y) : 1.0); };
+    const auto shape = [&](glm::dvec2 p) {
+      return std::cos(k * p.x) * (both_ways ? std::cos(k * p.y) : 1.0);
+    };
     constexpr double kSmall = 0.03;  // of the thickness: the cube's second order adds 3 kSmall^2
     LoneFilm film(gl, {along, across}, texel_m);
     film.lay([&](glm::dvec2 p) { return h_m * (1.0 + kSmall * shape(p)); });
@@ -102,7 +34,8 @@ class FilmTension : public GlTest {
       const std::vector<double> h = film.thickness_m();
       double sum = 0.0, norm = 0.0;
       for (size_t i = 0; i < h.size(); ++i) {
-        const double s = shape(texel_m * (glm::dvec2(i % static_cast<size_t>(along), i / static_cast<size_t>(along)) + 0.5));
+        const double s = shape(
+            texel_m * (glm::dvec2(i % static_cast<size_t>(along), i / static_cast<size_t>(along)) + 0.5));
         sum += h[i] * s;
         norm += s * s;
       }
@@ -116,15 +49,18 @@ class FilmTension : public GlTest {
     film.run(steps, pressing_mps2);
     EXPECT_EQ(film.volume_pl(), volume_pl);
     const double ratio = std::log(before / amplitude()) / (law * steps * kStepOfFilm_s);
-    std::printf("%.0f um, wave %.0f mm%s, onto the glass %.1f m/s2, texel %.2f mm: %.3f /s, %.3f of the law's\n", h_m * 1e6,
-                wave_m * 1e3, both_ways ? " both ways" : "", pressing_mps2, texel_m * 1e3, ratio * law, ratio);
+    std::printf(
+        "%.0f um, wave %.0f mm%s, onto the glass %.1f m/s2, texel %.2f mm: %.3f /s, %.3f of the law's\n",
+        h_m * 1e6, wave_m * 1e3, both_ways ? " both ways" : "", pressing_mps2, texel_m * 1e3, ratio * law,
+        ratio);
     return ratio;
   }
 };
 
 // As fast as theory says at the plugin's own texels, for waves of eight and more.
 TEST_F(FilmTension, wavesDecayAsLubricationTheorySays) {
-  // Differences over texels take (2 - 2 cos k dx) / dx^2 for k^2: 5 % less for eight texels to a wave, and its square for tension.
+  // Differences over texels take (2 - 2 cos k dx) / dx^2 for k^2: 5 % less for eight texels to a wave, and
+  // its square for tension.
   constexpr double kLeast = 0.88, kMost = 1.02;
   struct Case {
     double h_m, wave_m, pressing_mps2;
@@ -144,7 +80,9 @@ TEST_F(FilmTension, wavesDecayAsLubricationTheorySays) {
 
 // Second-order differences: half the texel, a quarter of the error.
 TEST_F(FilmTension, finerGridsComeNearer) {
-  const auto error = [&](double texel_m) { return std::abs(1.0 - decayByTheLaw(70e-6, 24e-3, 5.0, texel_m)); };
+  const auto error = [&](double texel_m) {
+    return std::abs(1.0 - decayByTheLaw(70e-6, 24e-3, 5.0, texel_m));
+  };
   const double coarse = error(4e-3), fine = error(2e-3);
   EXPECT_LT(fine, 0.35 * coarse);
 }
@@ -158,7 +96,8 @@ TEST_F(FilmTension, roughFilmsOfAnyThicknessGrowSmooth) {
         LoneFilm film(gl, texels, texel_m);
         film.lay([&](glm::dvec2 p) {
           const auto x = static_cast<int>(p.x / texel_m), y = static_cast<int>(p.y / texel_m);
-          const double noise = static_cast<double>(shared::unitFloat(shared::pcg(static_cast<uint32_t>(x + 1000 * y)))) - 0.5;
+          const double noise =
+              static_cast<double>(shared::unitFloat(shared::pcg(static_cast<uint32_t>(x + 1000 * y)))) - 0.5;
           return h_m * (1.0 + ((x + y) % 2 == 0 ? 0.05 : -0.05) + 0.02 * noise);
         });
         // How far texels stand from the mean of their neighbours, where no edge has come.
@@ -177,8 +116,8 @@ TEST_F(FilmTension, roughFilmsOfAnyThicknessGrowSmooth) {
         const double before = roughness_m(12, 44);
         film.run(30, 8.0, down_mps2);
         const double after = roughness_m(12, 44);
-        std::printf("texel %.2f mm, %.0f um, down %.1f m/s2: rough %.3f um, then %.3f\n", texel_m * 1e3, h_m * 1e6, down_mps2,
-                    before * 1e6, after * 1e6);
+        std::printf("texel %.2f mm, %.0f um, down %.1f m/s2: rough %.3f um, then %.3f\n", texel_m * 1e3,
+                    h_m * 1e6, down_mps2, before * 1e6, after * 1e6);
         EXPECT_LT(after, before) << texel_m << " " << h_m << " " << down_mps2;
       }
     }

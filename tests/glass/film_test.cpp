@@ -222,7 +222,7 @@ TEST(FilmLaw, giveAndTakeAgreeAtEveryFace) {
     const shared::vec4 drive(shared::unitFloat(h.x) * 20.0f - 10.0f, 3.0f, shared::unitFloat(h.y) - 0.5f,
                              0.1f);
     const auto volume = static_cast<int>(shared::unitFloat(h.z) * shared::unitFloat(h.z) * 2e7f);
-    const shared::FilmCell cell = shared::filmCell(volume, {0, volume}, 0, drive, metric, info);
+    const shared::FilmCell cell = shared::filmCell(volume, {0, volume, volume}, 0, drive, metric, info);
     // Half of what is there at most, so that surface tension's four eighths leave nothing negative; one for
     // rounding.
     ASSERT_LE(std::abs(cell.x_pl) + std::abs(cell.y_pl), volume / 2 + 2);

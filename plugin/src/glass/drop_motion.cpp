@@ -14,7 +14,8 @@ constexpr double kBoundaryLayer_m =
     10e-3;  // thickness of the air's boundary layer on the glass (unsourced); profile: one-seventh power
 constexpr double kFastest_mps =
     1.0;  // nothing faster than 0.7 m/s was seen sliding (Li et al. 2023); wind may add
-constexpr int kMostAside = 2;  // texels
+constexpr double kMeander = 0.5;  // tangent of the largest turn that uneven glass gives a path (unsourced)
+constexpr int kMostAside = 2;     // texels
 
 // Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
 // "depinning by wind".
@@ -67,7 +68,7 @@ void Drops::slide(const DropWorld& world, int slot) {
 
   const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
   // Uneven glass: a turn of the path that depends on the place alone.
-  const double turn = static_cast<double>(shared::kMostTurn * shared::unevenness(world.glass.level(drop.texel)));
+  const double turn = kMeander * static_cast<double>(shared::unevenness(world.glass.level(drop.texel)));
   const glm::dvec2 path = (toward + turn * glm::dvec2(-toward.y, toward.x)) / std::sqrt(1.0 + turn * turn);
   const double friction_kg_s = surface_.friction * width_m * kMu_pa_s;
   const double aim_mps = std::min(std::max(0.0, force - hold_n) / friction_kg_s, kFastest_mps);

@@ -56,7 +56,8 @@ void put(std::vector<unsigned char>& bytes, size_t at, const T* data, size_t cou
 
 // As glassLevel reads them, in rows of whole tiles. Past the grid's edges there is none to ask.
 std::vector<uint32_t> stripCodes(const PaneMap& map, const UnevenGlass& glass) {
-  const glm::ivec2 size = map.grid().size, strips = map.tileCount() * (shared::kTileSize / glm::ivec2(shared::kStripSize, 1));
+  const glm::ivec2 size = map.grid().size,
+                   strips = map.tileCount() * (shared::kTileSize / glm::ivec2(shared::kStripSize, 1));
   std::vector<uint32_t> codes;
   codes.reserve(static_cast<size_t>(strips.x * strips.y));
   for (int y = 0; y < strips.y; ++y) {
@@ -414,7 +415,8 @@ std::vector<int32_t> FilmGl::readRidges() const {
 void FilmGl::abandon() {
   for (gl::Buffer& film : film_) film.forget();
   for (gl::BufferTexture& strips : film_strips_) strips.forget();
-  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_, &glass_strips_, &beads_strips_}) nodes->forget();
+  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_, &glass_strips_, &beads_strips_})
+    nodes->forget();
   picture_.forget();
   beads_picture_.forget();
   beads_.forget();

@@ -78,8 +78,17 @@ struct PaneSim::State {
   };
 
   DropWorld world() {
-    return {map,  uneven, surface, forces,    film,         ledger,
-            seed, id,      now.index, now.humidity, saturatedVapour_kg_m3(now.temperature_c)};
+    return {map,
+            uneven,
+            surface,
+            forces,
+            film,
+            ledger,
+            seed,
+            id,
+            now.index,
+            now.humidity,
+            saturatedVapour_kg_m3(now.temperature_c)};
   }
   bool ready() const { return (ticks + 1) % kTicksPerFilmStep != 0 || film.reported(stepUsedBy(ticks + 1)); }
   static int64_t stepUsedBy(int64_t tick) { return (tick - kReportLatency_ticks) / kTicksPerFilmStep; }
