@@ -87,11 +87,11 @@ RG_FN FilmAround filmAround(int volume_pl, int left_pl, int right_pl, int below_
   return around;
 }
 
-// Glass is not the same everywhere: levels 0 (easily wetted) .. 31 from glass/uneven_glass.h, five bits each. A strip's code has its own texels'
+// Glass is not the same everywhere: levels 0 (easily wetted) .. 30 from glass/uneven_glass.h, five bits each. A strip's code has its own texels'
 // and that of the one on either side.
-RG_CONST int kGlassLevels = 32;
-RG_FN int glassLevel(uint code, int k) { return int(code >> uint(5 * (k + 1))) & (kGlassLevels - 1); }
-RG_FN float unevenness(int level) { return float(level) * (2.0f / 31.0f) - 1.0f; } // -1 .. 1
+RG_CONST int kMostUneven = 30;
+RG_FN int glassLevel(uint code, int k) { return int(code >> uint(5 * (k + 1))) & 31; }
+RG_FN float unevenness(int level) { return float(level) * (2.0f / float(kMostUneven)) - 1.0f; } // -1 .. 1
 
 // Tangent of the largest turn that uneven glass gives a contact line's way, and so what runs there (unsourced).
 RG_CONST float kMostTurn = 0.75f;

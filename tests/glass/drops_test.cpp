@@ -14,6 +14,7 @@ struct DropScene {
     glass::PaneInfo info = paneInfo(mesh);
     info.glass = glass;
     info.max_drops = max_drops;
+    info.unevenness = 0.0;  // the laws are those of even glass
     sim = std::make_unique<glass::PaneSim>(info, 1, 7);
   }
   void run(const glass::PaneTick& weather, double seconds) {

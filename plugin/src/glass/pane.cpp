@@ -65,7 +65,7 @@ struct PaneSim::State {
         surface(surfaceFor(info)),
         map(info),
         mean_normal(meanNormal(map)),
-        uneven(map, chance()),
+        uneven(map, chance(), info.unevenness),
         mesh(info, map),
         slide(info, map),
         film(map, ledger),

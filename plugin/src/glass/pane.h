@@ -41,6 +41,7 @@ struct PaneInfo {
   double texel_m = 3e-3;
   uint32_t max_drops = 20000;  // 0: the film alone
   bool film_enabled = true;
+  double unevenness = 1.0;  // 0: the same everywhere, see uneven_glass.h
   double demister = 0.0;   // share of its air that blows up the inner side
   double opening_m = 0.0;  // how far a window has slid before it is told otherwise
   // Of a window that slides, see slide.h. 0: down its own surface; its lower edge.

@@ -8,8 +8,8 @@
 namespace rg::glass {
 namespace {
 
-// What contact lines feel varies over some millimetres to some centimetres (Le Grand-Piteira, Daerr & Limat 2006,
-// Phys. Rev. Lett. 96: streams on glass meander with centimetres to a bend; the shares are by eye).
+// What contact lines feel varies over some millimetres to some centimetres (Le Grand-Piteira, Daerr & Limat
+// 2006, Phys. Rev. Lett. 96: streams on glass meander with centimetres to a bend; the shares are by eye).
 struct Waves {
   double length_m, share;
 };
@@ -33,14 +33,14 @@ double noise(glm::dvec2 at, uint32_t seed) {
 
 }  // namespace
 
-UnevenGlass::UnevenGlass(const PaneMap& map, uint32_t seed) {
+UnevenGlass::UnevenGlass(const PaneMap& map, uint32_t seed, double share) {
   levels_.reserve(static_cast<size_t>(map.texelCount()));
   for (int i = 0; i < map.texelCount(); ++i) {
     double sum = 0.0;
     for (uint32_t k = 0; k < kWaves.size(); ++k)
       sum += kWaves[k].share * noise(map.middleOf(i) / kWaves[k].length_m, seed + k);
-    const double contrasted = std::clamp(0.5 + kContrast * (sum - 0.5), 0.0, 1.0);
-    levels_.push_back(static_cast<uint8_t>(contrasted * (shared::kGlassLevels - 1) + 0.5));
+    const double contrasted = std::clamp(0.5 + share * kContrast * (sum - 0.5), 0.0, 1.0);
+    levels_.push_back(static_cast<uint8_t>(contrasted * shared::kMostUneven + 0.5));
   }
 }
 

@@ -11,10 +11,10 @@ namespace rg::glass {
 
 class UnevenGlass {
  public:
-  // `seed`: whose glass it is.
-  UnevenGlass(const PaneMap& map, uint32_t seed);
+  // `seed`: whose glass it is. `share`: how much of it is uneven, 0 .. 1.
+  UnevenGlass(const PaneMap& map, uint32_t seed, double share = 1.0);
 
-  // Of each texel, 0 the easiest .. shared::kGlassLevels - 1, see shared::unevenness.
+  // Of each texel, 0 the easiest .. shared::kMostUneven, see shared::unevenness.
   int level(int texel) const { return levels_[static_cast<size_t>(texel)]; }
 
  private:
