@@ -29,9 +29,9 @@ layout(std140, binding = 0) uniform Frame {
   float blur;
   float fine_radius_px;     // drops smaller than this are sampled four times a pixel
   uint depth_seen;          // 0: the target's depth is not given; 1: it is -1 .. 1; 2: 0 .. 1
-  uint srgb;                // the target and `picture` are encoded
   uint internal_reflections;
   uint dry_reflection;
+  uint unused;
   float film_unit_m3;
   int blade_count;          // that push a ridge
   float ridge_tan_contact;  // tangent of the angle in which its foot meets the glass

@@ -7,16 +7,17 @@
 layout(binding = 0) uniform sampler2D picture;        // what the target showed, as it was there, with mips
 layout(binding = 1) uniform samplerCube environment;  // linear radiance, world axes, with mips
 
-// The target's values, where they are encoded (IEC 61966-2-1).
+// The target's values, where they are encoded (IEC 61966-2-1). A variant, not a branch: software GL runs both sides of one.
+#ifdef ENCODED
 vec3 encode(vec3 radiance) {
-  if (frame.srgb == 0u) return radiance;
   vec3 x = clamp(radiance, 0.0, 1.0);
   return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
 }
-vec3 decode(vec3 value) {
-  if (frame.srgb == 0u) return value;
-  return mix(value / 12.92, pow((value + 0.055) / 1.055, vec3(2.4)), greaterThan(value, vec3(0.04045)));
-}
+vec3 decode(vec3 value) { return mix(value / 12.92, pow((value + 0.055) / 1.055, vec3(2.4)), greaterThan(value, vec3(0.04045))); }
+#else
+vec3 encode(vec3 radiance) { return radiance; }
+vec3 decode(vec3 value) { return value; }
+#endif
 
 // Sky to ground over a horizon as soft as a rainy day's.
 vec3 skyAndGround(float up) { return frame.exposure * mix(frame.ground_radiance.rgb, frame.sky_radiance.rgb, smoothstep(-0.15, 0.25, up)); }
@@ -32,7 +33,7 @@ vec3 pictureAt(vec3 direction_eye) {
 
 // `spread_rad`: angle between what neighbouring pixels see, for the choice of mips.
 vec3 surroundings(vec3 direction_world, float spread_rad) {
-#ifdef ENVIRONMENT  // a variant, not a branch: software GL runs both sides of one
+#ifdef ENVIRONMENT
   float lod = log2(max(spread_rad * frame.environment_texels_per_rad, 1e-6));
   return frame.exposure * textureLod(environment, direction_world, lod).rgb;
 #else

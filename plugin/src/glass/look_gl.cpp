@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/constants.hpp>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "gl/objects.h"
@@ -16,6 +14,7 @@
 #include "glass/look_lamps_gl.h"
 #include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
+#include "glass/look_programs_gl.h"
 #include "glass/water.h"
 
 namespace rg::glass {
@@ -27,25 +26,6 @@ constexpr int kPlaceGroup = 64;          // drops in a group of look_place.comp
 constexpr float kCoarseTexel_px = 6.0f;  // a film of larger texels would show facets
 constexpr float kFineRadius_px = 3.0f;
 constexpr float kSteepestRidge_rad = 1.4f;
-
-const std::array<std::string, 1> kInside{"INSIDE"}, kEnvironment{"ENVIRONMENT"};
-const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"},
-    kInsideEnvironment{"INSIDE", "ENVIRONMENT"};
-const std::array<std::string, 3> kInsideCoarseEnvironment{"INSIDE", "COARSE", "ENVIRONMENT"};
-const std::array<std::string, 2> kLampsEnvironment{"LAMPS", "ENVIRONMENT"};
-const std::array<std::string, 1> kLamps{"LAMPS"};
-
-// What places drops and what draws them.
-struct DropPrograms {
-  DropPrograms(const GladGLContext& gl, std::span<const std::string> defines)
-      : place(gl, {"glass/look_place.comp"}, defines),
-        draw(gl, {"glass/look_drop.vert", "glass/look_drop.frag"}, defines) {}
-  void forget() {
-    place.forget();
-    draw.forget();
-  }
-  gl::Program place, draw;
-};
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -59,7 +39,7 @@ struct FrameBlock {
   float exposure, pixels_per_rad, environment_texels_per_rad, cabin_share;
   float brightness, blur, fine_radius_px;
   uint32_t depth_seen;
-  uint32_t srgb, internal_reflections, dry_reflection;
+  uint32_t internal_reflections, dry_reflection, unused;
   float film_unit_m3;
   int32_t blade_count;
   float ridge_tan_contact;
@@ -85,18 +65,7 @@ bool isWet(const LookPane& pane) { return pane.film != 0 || pane.beads != 0 || p
 struct GlassLook::Parts {
   explicit Parts(const GladGLContext& context)
       : gl(context),
-        film_program(gl, {"glass/look_screen.vert", "glass/look_film.frag"}),
-        beads_program(gl, {"glass/look_screen.vert", "glass/look_beads.frag"}),
-        crater_program(gl, {"glass/look_crater.vert", "glass/look_crater.frag"}),
-        inside_programs{
-            {{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInside),
-              gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideEnvironment)},
-             {gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideCoarse),
-              gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kInsideCoarseEnvironment)}}},
-        outside_programs{gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}),
-                         gl::Program(gl, {"glass/look_pane.vert", "glass/look_pane.frag"}, kEnvironment)},
-        small_program(gl, {"glass/look_small.vert", "glass/look_small.frag"}),
-        drop_programs{DropPrograms(gl, {}), DropPrograms(gl, kEnvironment)},
+        programs(gl),
         frame_block(gl, sizeof(FrameBlock)),
         mesh_layout(gl),
         no_layout(gl),
@@ -118,41 +87,36 @@ struct GlassLook::Parts {
     mesh_layout.attribute(2, 0, 2, GL_FLOAT, 6 * sizeof(float));
   }
 
+  void choose(LookVariant bit, bool on) {
+    variant = on ? variant | bit : variant & ~static_cast<uint32_t>(bit);
+  }
   void fillFrame(const LookPane& pane, const LookView& view, const LookTarget& target, const LookLight& light,
                  const LookSettings& settings);
   void bindLook(const LookLight& light, const LookTarget& target);
   void setState(const LookView& view, const LookTarget& target);
   void composeFilm(const LookPane& pane);
   void composeBeads(const LookPane& pane);
-  uint32_t compose(Canvases& canvases, const LookPane& pane, const gl::Program& program,
+  uint32_t compose(Canvases& canvases, const LookPane& pane, LookStage stage,
                    const std::array<uint32_t, 3>& maps);
   void drawFilm(const LookPane& pane);
   void placeDrops(const LookPane& pane);
   void drawDrops(const LookPane& pane);
   void drawFog(const LookPane& pane);
-  const DropPrograms& dropPrograms();
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
     return capture.cube() != 0 ? capture.cube() : light.environment_cube;
   }
 
   const GladGLContext& gl;
-  gl::Program film_program, beads_program, crater_program;
-  // For a film of few and of many pixels to a texel, each without and with an environment.
-  std::array<std::array<gl::Program, 2>, 2> inside_programs;
-  std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
-  gl::Program small_program;
-  std::array<DropPrograms, 2> drop_programs;
-  std::array<std::optional<DropPrograms>, 2> lamp_drop_programs;  // likewise, made when lamps first shine
+  LookPrograms programs;
   gl::Buffer frame_block, seen_drops;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, stepped, mipped, exact;
-  gl::TextureCube no_environment;  // black
-  gl::Texture2D no_film;           // a dry texel
-  Canvases films;                  // of look_film.frag
-  Canvases bead_maps;              // of look_beads.frag
-  size_t with_environment = 0, coarse = 0;
-  bool with_lamps = false;
+  gl::TextureCube no_environment;          // black
+  gl::Texture2D no_film;                   // a dry texel
+  Canvases films;                          // of look_film.frag
+  Canvases bead_maps;                      // of look_beads.frag
+  uint32_t variant = kPlain;               // of the pane being drawn and the light it is drawn in
   uint32_t film_seen = 0, beads_seen = 0;  // for the pane being drawn
   LookPicture picture;
   LookCapture capture;
@@ -182,14 +146,14 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.pixels_per_rad =
       static_cast<float>(std::abs(view.clipFromEye[1][1])) * 0.5f * static_cast<float>(view.viewport_px.w);
   const float distance_m = glm::distance(glm::vec3(block.eye_in_vehicle), pane.centre_m);
-  coarse = pane.texel_m * block.pixels_per_rad > kCoarseTexel_px * distance_m ? 1 : 0;
+  const bool coarse = pane.texel_m * block.pixels_per_rad > kCoarseTexel_px * distance_m;
+  choose(kCoarse, coarse);
   block.environment_texels_per_rad = environment != 0 ? texelsPerRadian(gl, environment) : 0.0f;
   block.cabin_share = light.cabin_share;
   block.brightness = settings.brightness;
   block.blur = settings.blur;
   block.fine_radius_px = kFineRadius_px;
   if (target.depth_texture != 0) block.depth_seen = view.clip_zero_to_one ? 2 : 1;
-  block.srgb = target.srgb;
   block.internal_reflections = static_cast<uint32_t>(std::clamp(settings.internal_reflections, 0, 6));
   block.dry_reflection = settings.dry_reflection;
   block.film_unit_m3 = pane.film_unit_m3;
@@ -212,7 +176,8 @@ void GlassLook::Parts::bindLook(const LookLight& light, const LookTarget& target
   gl.BindTextureUnit(kPicture, picture.texture());
   gl.BindSampler(kPicture, mipped.name());
   const uint32_t environment = environmentOf(light);
-  with_environment = environment != 0 ? 1 : 0;
+  choose(kEnvironment, environment != 0);
+  choose(kEncoded, target.srgb);
   gl.BindTextureUnit(kSurroundings, environment != 0 ? environment : no_environment.name());
   gl.BindSampler(kSurroundings, mipped.name());
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -240,22 +205,22 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
 }
 
 void GlassLook::Parts::composeFilm(const LookPane& pane) {
-  film_seen = compose(films, pane, film_program, {pane.film, pane.frame, pane.metric});
+  film_seen = compose(films, pane, LookStage::film, {pane.film, pane.frame, pane.metric});
   if (pane.crater_count == 0) return;
   gl.Enablei(GL_BLEND, 0);
   gl.BlendEquationi(0, GL_FUNC_ADD);
   gl.BlendFunci(0, GL_ONE, GL_ONE);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.crater_buffer);
-  crater_program.use();
+  programs.use(LookStage::craters);
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.crater_count);
 }
 
 void GlassLook::Parts::composeBeads(const LookPane& pane) {
-  beads_seen = compose(bead_maps, pane, beads_program, {pane.beads, pane.position, pane.metric});
+  beads_seen = compose(bead_maps, pane, LookStage::beads, {pane.beads, pane.position, pane.metric});
 }
 
 // What a program makes of a pane's maps, texel by texel.
-uint32_t GlassLook::Parts::compose(Canvases& canvases, const LookPane& pane, const gl::Program& program,
+uint32_t GlassLook::Parts::compose(Canvases& canvases, const LookPane& pane, LookStage stage,
                                    const std::array<uint32_t, 3>& maps) {
   Canvas& canvas = canvases.ofSize(pane.film_size.x, pane.film_size.y);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer.name());
@@ -270,7 +235,7 @@ uint32_t GlassLook::Parts::compose(Canvases& canvases, const LookPane& pane, con
     gl.BindSampler(kFirst + k, exact.name());
   }
   gl.BindVertexArray(no_layout.name());
-  program.use();
+  programs.use(stage);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   return canvas.texture.name();
 }
@@ -289,23 +254,12 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   // outside.
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
-  inside_programs[coarse][with_environment].use();
+  programs.use(LookStage::pane, variant | kInside);
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   gl.CullFace(GL_BACK);
-  outside_programs[with_environment].use();
+  programs.use(LookStage::pane, variant & ~kCoarse);
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   gl.Disable(GL_CULL_FACE);
-}
-
-// Without lamps drops are drawn as if there were no such thing, to the bit and as fast.
-const DropPrograms& GlassLook::Parts::dropPrograms() {
-  if (!with_lamps) return drop_programs[with_environment];
-  std::optional<DropPrograms>& made = lamp_drop_programs[with_environment];
-  if (!made && with_environment != 0)
-    made.emplace(gl, kLampsEnvironment);
-  else if (!made)
-    made.emplace(gl, kLamps);
-  return *made;
 }
 
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
@@ -319,7 +273,7 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen_drops.name());
   gl.BindSampler(kPicture, mipped.name());
-  dropPrograms().place.use();
+  programs.use(LookStage::place, variant);
   gl.DispatchCompute(static_cast<GLuint>(pane.drop_count + kPlaceGroup - 1) / kPlaceGroup, 1, 1);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -328,16 +282,17 @@ void GlassLook::Parts::drawDrops(const LookPane& pane) {
   gl.Enablei(GL_BLEND, 0);
   gl.BindSampler(kPicture, mipped.name());
   gl.BindVertexArray(no_layout.name());
-  small_program.use();
+  programs.use(LookStage::small_drops);
   gl.DrawArrays(GL_TRIANGLES, 0, 3 * pane.drop_count);
-  dropPrograms().draw.use();
+  programs.use(LookStage::drops, variant);
   gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
 }
 
 // Between the eye and the water, of which it shows no more than of the rest: over the picture with both.
 void GlassLook::Parts::drawFog(const LookPane& pane) {
   gl.Disablei(GL_BLEND, 0);
-  fog.bind(pane.fog, with_environment, kFirst);
+  fog.bind(pane.fog, kFirst);
+  programs.use(LookStage::fog, variant);
   gl.BindSampler(kFirst, smooth.name());
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
   mesh_layout.bindIndices(pane.index_buffer);
@@ -349,14 +304,7 @@ void GlassLook::Parts::drawFog(const LookPane& pane) {
 }
 
 void GlassLook::Parts::forget() {
-  for (gl::Program* program : {&film_program, &beads_program, &crater_program, &small_program})
-    program->forget();
-  for (size_t k : {0u, 1u}) {
-    for (gl::Program& program : inside_programs[k]) program.forget();
-    outside_programs[k].forget();
-    drop_programs[k].forget();
-    if (lamp_drop_programs[k]) lamp_drop_programs[k]->forget();
-  }
+  programs.forget();
   frame_block.forget();
   seen_drops.forget();
   mesh_layout.forget();
@@ -378,7 +326,8 @@ GlassLook::~GlassLook() = default;
 void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view, const LookTarget& target,
                           const LookLight& light) {
   Parts& p = *parts_;
-  p.with_lamps = p.lamps.put(light.lamps, glm::dvec3(glm::inverse(view.eyeFromWorld)[3]));
+  const bool with_lamps = p.lamps.put(light.lamps, glm::dvec3(glm::inverse(view.eyeFromWorld)[3]));
+  p.choose(kLamps, with_lamps);
   std::vector<SeenPane> drawn;  // since the picture was fetched
   for (const SeenPane& seen : seenPanes(panes, view)) {
     const LookPane& pane = *seen.pane;
@@ -386,7 +335,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     const bool stale =
         std::any_of(drawn.begin(), drawn.end(), [&](const SeenPane& far) { return liesBehind(far, seen); });
     if (drawn.empty() || stale) {
-      p.picture.fetch(view.viewport_px, target, p.with_lamps);
+      p.picture.fetch(view.viewport_px, target, with_lamps);
       drawn.clear();
     }
     drawn.push_back(seen);
@@ -395,14 +344,14 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     if (pane.beads != 0) p.composeBeads(pane);
     p.setState(view, target);
     p.bindLook(light, target);
-    if (p.with_lamps) p.lamps.hide();
+    if (with_lamps) p.lamps.hide();
     p.drawFilm(pane);
     if (pane.drop_count > 0) {
       p.placeDrops(pane);
       p.drawDrops(pane);
     }
     if (!pane.fog.covered.empty()) {
-      p.picture.fetch(view.viewport_px, target, p.with_lamps);
+      p.picture.fetch(view.viewport_px, target, with_lamps);
       drawn = {seen};
       p.setState(view, target);
       p.bindLook(light, target);

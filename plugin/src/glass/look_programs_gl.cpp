@@ -1,0 +1,63 @@
+#include "glass/look_programs_gl.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rg::glass {
+namespace {
+
+struct Source {
+  std::string_view first, second;  // second: none of a compute shader
+  uint32_t asks;                   // for these variants
+};
+
+constexpr uint32_t kLit = kEnvironment | kEncoded;
+
+// By LookStage.
+constexpr std::array<Source, 8> kSources{
+    {{"glass/look_screen.vert", "glass/look_film.frag", kPlain},
+     {"glass/look_screen.vert", "glass/look_beads.frag", kPlain},
+     {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
+     {"glass/look_pane.vert", "glass/look_pane.frag", kInside | kCoarse | kLit},
+     {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
+     {"glass/look_place.comp", "", kLamps | kLit},
+     {"glass/look_drop.vert", "glass/look_drop.frag", kLamps | kLit},
+     {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
+
+struct Name {
+  LookVariant variant;
+  const char* define;
+};
+constexpr std::array<Name, 5> kNames{{{kInside, "INSIDE"},
+                                      {kCoarse, "COARSE"},
+                                      {kEnvironment, "ENVIRONMENT"},
+                                      {kLamps, "LAMPS"},
+                                      {kEncoded, "ENCODED"}}};
+
+gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant) {
+  std::vector<std::string> defines;
+  for (const Name& name : kNames) {
+    if ((variant & name.variant) != 0) defines.emplace_back(name.define);
+  }
+  if (source.second.empty()) return gl::Program(gl, {source.first}, defines);
+  return gl::Program(gl, {source.first, source.second}, defines);
+}
+
+}  // namespace
+
+void LookPrograms::use(LookStage stage, uint32_t variant) {
+  const Source& source = kSources[static_cast<size_t>(stage)];
+  const uint32_t asked = variant & source.asks;
+  auto known = programs_.find({stage, asked});
+  if (known == programs_.end())
+    known = programs_.emplace(std::pair(stage, asked), make(*gl_, source, asked)).first;
+  known->second.use();
+}
+
+void LookPrograms::forget() {
+  for (auto& [key, program] : programs_) program.forget();
+}
+
+}  // namespace rg::glass

@@ -1,0 +1,38 @@
+// The look's programs, each made when it is first wanted. What is the same for all pixels of a draw is a
+// variant of its own, not a branch: software GL runs both sides of one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "gl/program.h"
+
+struct GladGLContext;
+
+namespace rg::glass {
+
+enum class LookStage : uint8_t { film, beads, craters, pane, fog, place, drops, small_drops };
+
+// Any of them together; those that a stage does not ask for make no difference to it.
+enum LookVariant : uint32_t {
+  kPlain = 0,
+  kInside = 1,       // the eye is on the cabin's side of the glass
+  kCoarse = 2,       // many pixels to a texel of the film
+  kEnvironment = 4,  // there is a cube of what is all around
+  kLamps = 8,        // lamps shine
+  kEncoded = 16,     // the target holds sRGB
+};
+
+class LookPrograms {
+ public:
+  explicit LookPrograms(const GladGLContext& gl) : gl_(&gl) {}
+  void use(LookStage stage, uint32_t variant = kPlain);
+  void forget();  // the context is gone
+
+ private:
+  const GladGLContext* gl_;
+  std::map<std::pair<LookStage, uint32_t>, gl::Program> programs_;
+};
+
+}  // namespace rg::glass
