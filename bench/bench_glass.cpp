@@ -88,27 +88,6 @@ glass::LookView driversView(const glass::PaneMap& map) {
   return view;
 }
 
-glass::LookPane looked(const glass::PaneDrawn& drawn) {
-  glass::LookPane pane;
-  pane.vertex_buffer = drawn.vertex_buffer;
-  pane.index_buffer = drawn.index_buffer;
-  pane.index_count = drawn.index_count;
-  pane.centre_m = drawn.centre_m;
-  pane.radius_m = drawn.radius_m;
-  pane.film_size = drawn.film_size;
-  pane.texel_m = drawn.texel_m;
-  pane.position = drawn.position;
-  pane.metric = drawn.metric;
-  pane.frame = drawn.frame;
-  pane.film = drawn.film;
-  pane.beads = drawn.beads;
-  pane.drop_buffer = drawn.drop_buffer;
-  pane.drop_count = drawn.drop_count;
-  pane.crater_buffer = drawn.crater_buffer;
-  pane.crater_count = drawn.crater_count;
-  return pane;
-}
-
 class Picture {
  public:
   explicit Picture(const GladGLContext& gl)
@@ -170,7 +149,7 @@ void measure(const GladGLContext& gl, int drops, int frames) {
       for (int k = 0; k < 2; ++k, ++tick.index) sim->submit(tick);
     });
     const double stepped = stopwatch.time([&] { pane.step(); });
-    const glass::LookPane seen = looked(pane.drawn());
+    const glass::LookPane seen = glass::lookPaneOf(pane.drawn());
     const double drawn = stopwatch.time([&] { picture.draw(look, seen, view); });
     if (frame < 2) continue;  // programs are made
     ticks_ms.push_back(ticked);

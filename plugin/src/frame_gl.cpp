@@ -45,30 +45,10 @@ glm::dmat4 worldFromVehicle(const Pose& pose) {
 }
 
 glass::LookPane lookPane(const glass::PaneDrawn& d, const Pose& vehicle, int64_t time_ns, int64_t drops_ns) {
-  glass::LookPane p;
+  glass::LookPane p = lookPaneOf(d);
   p.worldFromVehicle = glm::translate(worldFromVehicle(vehicle), d.slid_m);
-  p.vertex_buffer = d.vertex_buffer;
-  p.index_buffer = d.index_buffer;
-  p.index_count = d.index_count;
-  p.centre_m = d.centre_m;
-  p.radius_m = d.radius_m;
-  p.film_size = d.film_size;
-  p.texel_m = d.texel_m;
-  p.position = d.position;
-  p.metric = d.metric;
-  p.frame = d.frame;
-  p.film = d.film;
-  p.film_unit_m3 = d.film_unit_m3;
-  p.beads = d.beads;
-  if (d.bead_contact_rad > 0.0) p.bead_contact_rad = static_cast<float>(d.bead_contact_rad);
-  p.drop_buffer = d.drop_buffer;
-  p.drop_count = d.drop_count;
-  p.crater_buffer = d.crater_buffer;
-  p.crater_count = d.crater_count;
   const double age_s = static_cast<double>(time_ns - drops_ns) * 1e-9;
   p.drop_age_s = static_cast<float>(age_s);
-  p.ridge_buffer = d.ridge_buffer;
-  p.ridge_contact_rad = static_cast<float>(d.advancing_rad);
   for (const glass::MovingBlade& blade : d.blades) {
     const glass::BladePose pose = bladePose(blade.wiper, blade.angle_rad + blade.speed_radps * age_s);
     p.blades.push_back({glm::vec3(pose.middle_m), glm::vec3(pose.along),

@@ -4,6 +4,7 @@
 #include "optics/near.glsl"
 #include "optics/ridge.glsl"
 #include "optics/surroundings.glsl"
+#include "optics/tile.glsl"
 #include "shared/optics_drop.glsl"
 
 layout(binding = 2) uniform sampler2D film;  // of look_film.frag; empty where the pane has none
@@ -16,7 +17,6 @@ in PaneToPixel {
 
 layout(location = 0) out vec4 color;
 
-const float kDry_um = 0.15;        // what a wiper leaves counts as clean
 const float kSteepest = 0.6;       // slopes beyond a film's contact angle belong to drops
 const float kBehindGlass_m = 1.0;  // how far the cabin behind a pane is, for an eye outside
 
@@ -84,7 +84,11 @@ void main() {
   float to_glass_m = length(i.from_eye);
   vec3 view = i.from_eye / to_glass_m;
   vec2 place = i.uv * vec2(textureSize(beads, 0)), dx = dFdx(place), dy = dFdy(place);
+#ifdef BEADLESS
+  SeenBead bead = SeenBead(0.0, 0.0, vec2(0.0), 1.0);
+#else
   SeenBead bead = seenBead(place, dx, dy);
+#endif
   bool wet = water.w > kDry_um || bead.cover + bead.hazy > 0.0;
   float steep = length(water.xyz);
   float sure = smoothstep(kDry_um, 4.0 * kDry_um, water.w);

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "glass/mesh_cut.h"
 #include "glass/water.h"
 #include "shared/glass_beads.glsl"
 
@@ -26,17 +27,16 @@ FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, do
   up = axes.up;
   outward = axes.outward;
   const double texel_m = size_m / texels;
-  std::vector<float> mesh;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = corner & 1, v = corner >> 1;
     const glm::dvec3 p = (u - 0.5) * size_m * right + (v - 0.5) * size_m * up;
     for (const double x : {p.x, p.y, p.z, outward.x, outward.y, outward.z, u, v})
-      mesh.push_back(static_cast<float>(x));
+      mesh_.vertices.push_back(static_cast<float>(x));
   }
-  const std::vector<uint32_t> triangles =
+  mesh_.indices =
       mirrored ? std::vector<uint32_t>{0, 1, 2, 1, 3, 2} : std::vector<uint32_t>{0, 2, 1, 1, 2, 3};
-  vertices_ = gl::Buffer(gl, std::span<const float>(mesh));
-  indices_ = gl::Buffer(gl, std::span<const uint32_t>(triangles));
+  vertices_ = gl::Buffer(gl, std::span<const float>(mesh_.vertices));
+  indices_ = gl::Buffer(gl, std::span<const uint32_t>(mesh_.indices));
 
   const auto count = static_cast<size_t>(texels) * static_cast<size_t>(texels);
   std::vector<glm::vec4> position(count);
@@ -64,6 +64,17 @@ FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, do
   pane.position = position_.name();
   pane.metric = metric_.name();
   pane.frame = frame_.name();
+}
+
+void FlatPane::cutIntoTiles() {
+  const glass::TiledMesh tiled = glass::cutIntoTiles(mesh_, pane.film_size);
+  vertices_ = gl::Buffer(gl_, std::span<const float>(tiled.mesh.vertices));
+  indices_ = gl::Buffer(gl_, std::span<const uint32_t>(tiled.mesh.indices));
+  tiles_ = gl::Buffer(gl_, std::span<const uint32_t>(tiled.tiles));
+  pane.vertex_buffer = vertices_.name();
+  pane.index_buffer = indices_.name();
+  pane.index_count = static_cast<int32_t>(tiled.mesh.indices.size());
+  pane.tile_buffer = tiles_.name();
 }
 
 GlassDropRecord FlatPane::cap(double u_m, double v_m, double base_radius_m, double contact_rad) const {

@@ -9,6 +9,7 @@
 
 #include "gl/objects.h"
 #include "glass/look_gl.h"
+#include "glass/pane_map.h"
 #include "picture.h"
 #include "shared/glass_types.glsl"
 
@@ -27,6 +28,8 @@ class FlatPane {
   void putFilm(const std::function<double(double u_m, double v_m)>& thickness_m);
   // In each texel so many beads whose bases cover this share of the glass.
   void putBeads(const std::function<int(double u_m, double v_m)>& number, double share, double contact_rad);
+  // Cuts its mesh into tiles, as the simulation's are.
+  void cutIntoTiles();
   // A spherical cap at (u, v) from the pane's middle, round.
   shared::GlassDropRecord cap(double u_m, double v_m, double base_radius_m, double contact_rad) const;
 
@@ -43,7 +46,8 @@ class FlatPane {
   double size_m_;
   double across_;  // +1: u runs to the right
   int texels_;
-  gl::Buffer vertices_, indices_, drops_;
+  glass::PaneMesh mesh_;
+  gl::Buffer vertices_, indices_, tiles_, drops_;
   gl::Texture2D position_, metric_, film_, beads_;
   gl::Texture2DArray frame_;
 };

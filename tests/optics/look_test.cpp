@@ -150,6 +150,47 @@ TEST_F(Look, aCraterBendsTheViewWhereThereIsFilmAndNowhereElse) {
   EXPECT_EQ(changed(150e-6).first, 0) << "levelled long ago";
 }
 
+// Tiles that have nothing to be seen are left out, others are drawn with what they have.
+TEST_F(Look, aPaneCutIntoTilesShowsTheSame) {
+  FlatPane pane(gl, kRake, 0.8, 250);
+  // Film above, thinning out towards the middle; beads to the right; drops here and there; the rest is dry.
+  pane.putFilm([](double, double v) { return v > 0.05 ? 1e-4 * (v - 0.05) : 1e-7; });
+  pane.putBeads([](double u, double v) { return u > 0.1 && v < 0.2 ? 3 : 0; }, 0.3, glm::radians(25.0));
+  pane.putDrops(scatter(pane, 100, 3e-3, glm::radians(60.0), 4));
+  glass::LookBlade blade;
+  blade.middle_m = glm::vec3(-0.2 * pane.up);
+  blade.along = glm::vec3(pane.right);
+  blade.ahead = glm::vec3(pane.up);
+  blade.blade_m = 0.3f;
+  const std::vector<int32_t> pieces(shared::kBladeSegments * shared::kMaxGlassWipers, 20000000);
+  const gl::Buffer ridges(gl, std::span<const int32_t>(pieces));
+  pane.pane.blades = {blade};
+  pane.pane.ridge_buffer = ridges.name();
+  Scene scene = inside({640, 360});
+  scene.picture = paint(scene.size_px, checks);
+  std::vector<glass::LookView> views{scene.view, scene.view};
+  views[1].eyeFromWorld = glm::lookAt(glm::dvec3(1.0, 0.0, 0.6), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+  std::vector<Picture> whole;
+  for (const glass::LookView& view : views) {
+    scene.view = view;
+    whole.push_back(draw(gl, look, scene, {&pane.pane, 1}));
+    EXPECT_GT(greatestDifference(whole.back(), draw(gl, look, scene, {})), 0.5f);
+  }
+  pane.cutIntoTiles();
+  for (size_t k = 0; k < views.size(); ++k) {
+    scene.view = views[k];
+    const Picture tiled = draw(gl, look, scene, {&pane.pane, 1});
+    int others = 0;
+    for (int y = 0; y < 360; ++y) {
+      for (int x = 0; x < 640; ++x)
+        others += glm::distance(tiled.at(x, y), whole[k].at(x, y)) > 0.02f ? 1 : 0;
+    }
+    // Places on the glass are rounded otherwise in small triangles: a check's edge may fall to the other
+    // side.
+    EXPECT_LT(others, 640 * 360 / 1000);
+  }
+}
+
 TEST_F(Look, everyDepthConventionShowsTheSame) {
   FlatPane pane(gl, kRake, 0.8, 64);
   pane.putFilm([](double u, double) { return 2e-4 * (1.0 + std::sin(80.0 * u)); });

@@ -15,6 +15,7 @@
 #include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
 #include "glass/look_programs_gl.h"
+#include "glass/pane_gl.h"
 #include "glass/water.h"
 
 namespace rg::glass {
@@ -26,6 +27,9 @@ constexpr int kPlaceGroup = 64;          // drops in a group of look_place.comp
 constexpr float kCoarseTexel_px = 6.0f;  // a film of larger texels would show facets
 constexpr float kFineRadius_px = 3.0f;
 constexpr float kSteepestRidge_rad = 1.4f;
+
+// As in shaders/optics/tile.glsl.
+constexpr uint32_t kFilmTile = 1, kBeadTile = 2;
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -62,12 +66,39 @@ bool isWet(const LookPane& pane) { return pane.film != 0 || pane.beads != 0 || p
 
 }  // namespace
 
+LookPane lookPaneOf(const PaneDrawn& d) {
+  LookPane p;
+  p.vertex_buffer = d.vertex_buffer;
+  p.index_buffer = d.index_buffer;
+  p.index_count = d.index_count;
+  p.centre_m = d.centre_m;
+  p.radius_m = d.radius_m;
+  p.film_size = d.film_size;
+  p.texel_m = d.texel_m;
+  p.position = d.position;
+  p.metric = d.metric;
+  p.frame = d.frame;
+  p.film = d.film;
+  p.film_unit_m3 = d.film_unit_m3;
+  p.beads = d.beads;
+  if (d.bead_contact_rad > 0.0) p.bead_contact_rad = static_cast<float>(d.bead_contact_rad);
+  p.drop_buffer = d.drop_buffer;
+  p.drop_count = d.drop_count;
+  p.crater_buffer = d.crater_buffer;
+  p.crater_count = d.crater_count;
+  p.tile_buffer = d.tile_buffer;
+  p.ridge_buffer = d.ridge_buffer;
+  p.ridge_contact_rad = static_cast<float>(d.advancing_rad);
+  return p;
+}
+
 struct GlassLook::Parts {
   explicit Parts(const GladGLContext& context)
       : gl(context),
         programs(gl),
         frame_block(gl, sizeof(FrameBlock)),
         mesh_layout(gl),
+        tiled_layout(gl),
         no_layout(gl),
         smooth(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
         stepped(gl, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_CLAMP_TO_EDGE),
@@ -82,9 +113,12 @@ struct GlassLook::Parts {
         lamps(gl),
         fog(gl) {
     no_film.zero();
-    mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
-    mesh_layout.attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
-    mesh_layout.attribute(2, 0, 2, GL_FLOAT, 6 * sizeof(float));
+    for (gl::VertexArray* layout : {&mesh_layout, &tiled_layout}) {
+      layout->attribute(0, 0, 3, GL_FLOAT, 0);
+      layout->attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
+      layout->attribute(2, 0, 2, GL_FLOAT, 6 * sizeof(float));
+    }
+    tiled_layout.integerAttribute(3, 1, 1, GL_UNSIGNED_INT, 0);
   }
 
   void choose(LookVariant bit, bool on) {
@@ -98,6 +132,8 @@ struct GlassLook::Parts {
   void composeBeads(const LookPane& pane);
   uint32_t compose(Canvases& canvases, const LookPane& pane, LookStage stage,
                    const std::array<uint32_t, 3>& maps);
+  void sortTiles(const LookPane& pane);
+  void bindMesh(const LookPane& pane);
   void drawFilm(const LookPane& pane);
   void placeDrops(const LookPane& pane);
   void drawDrops(const LookPane& pane);
@@ -109,8 +145,8 @@ struct GlassLook::Parts {
 
   const GladGLContext& gl;
   LookPrograms programs;
-  gl::Buffer frame_block, seen_drops;
-  gl::VertexArray mesh_layout, no_layout;
+  gl::Buffer frame_block, seen_drops, tile_kinds;
+  gl::VertexArray mesh_layout, tiled_layout, no_layout;
   gl::Sampler smooth, stepped, mipped, exact;
   gl::TextureCube no_environment;          // black
   gl::Texture2D no_film;                   // a dry texel
@@ -178,6 +214,9 @@ void GlassLook::Parts::bindLook(const LookLight& light, const LookTarget& target
   const uint32_t environment = environmentOf(light);
   choose(kEnvironment, environment != 0);
   choose(kEncoded, target.srgb);
+  // Made with the first pane that is drawn, not with the first drop that falls.
+  for (const LookStage stage : {LookStage::place, LookStage::drops, LookStage::small_drops})
+    programs.use(stage, variant);
   gl.BindTextureUnit(kSurroundings, environment != 0 ? environment : no_environment.name());
   gl.BindSampler(kSurroundings, mipped.name());
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -247,19 +286,52 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   for (const GLuint unit : {kFirst, kSecond}) gl.BindSampler(unit, smooth.name());
   gl.BindSampler(kPicture, stepped.name());  // one mip level: a quarter of the pass cheaper
   if (!pane.blades.empty()) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, pane.ridge_buffer);
-  mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
-  mesh_layout.bindIndices(pane.index_buffer);
-  gl.BindVertexArray(mesh_layout.name());
+  bindMesh(pane);
   // Front faces are the outer side; the eye sees one pane from inside and, at its far end, another from
   // outside.
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
-  programs.use(LookStage::pane, variant | kInside);
-  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  const auto drawMesh = [&] { gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr); };
+  if (pane.tile_buffer != 0) {
+    programs.use(LookStage::pane, variant | kInside | kTiled | kBeadless).set(0, kFilmTile);
+    drawMesh();
+    programs.use(LookStage::pane, variant | kInside | kTiled).set(0, kBeadTile);
+    drawMesh();
+  } else {
+    programs.use(LookStage::pane, variant | kInside);
+    drawMesh();
+  }
   gl.CullFace(GL_BACK);
   programs.use(LookStage::pane, variant & ~kCoarse);
-  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  drawMesh();
   gl.Disable(GL_CULL_FACE);
+}
+
+// Made ready to be drawn, and bound.
+void GlassLook::Parts::bindMesh(const LookPane& pane) {
+  gl::VertexArray& layout = pane.tile_buffer != 0 ? tiled_layout : mesh_layout;
+  layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
+  if (pane.tile_buffer != 0) layout.bindBuffer(1, pane.tile_buffer, 0, sizeof(uint32_t));
+  layout.bindIndices(pane.index_buffer);
+  gl.BindVertexArray(layout.name());
+}
+
+// What is to be seen on each tile.
+void GlassLook::Parts::sortTiles(const LookPane& pane) {
+  const glm::ivec2 tiles = (pane.film_size + shared::kTileSize - 1) / shared::kTileSize;
+  const size_t bytes = static_cast<size_t>(tiles.x * tiles.y) * sizeof(uint32_t);
+  if (tile_kinds.bytes() < bytes) tile_kinds = gl::Buffer(gl, bytes, 0);
+  const std::array<uint32_t, 3> maps{pane.film != 0 ? film_seen : no_film.name(),
+                                     pane.beads != 0 ? beads_seen : no_film.name(), pane.position};
+  for (GLuint k = 0; k < 3; ++k) {
+    gl.BindTextureUnit(kFirst + k, maps[k]);
+    gl.BindSampler(kFirst + k, exact.name());
+  }
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, tile_kinds.name());
+  if (!pane.blades.empty()) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, pane.ridge_buffer);
+  programs.use(LookStage::tiles);
+  gl.DispatchCompute(static_cast<GLuint>(tiles.x), static_cast<GLuint>(tiles.y), 1);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
@@ -294,9 +366,7 @@ void GlassLook::Parts::drawFog(const LookPane& pane) {
   fog.bind(pane.fog, kFirst);
   programs.use(LookStage::fog, variant);
   gl.BindSampler(kFirst, smooth.name());
-  mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
-  mesh_layout.bindIndices(pane.index_buffer);
-  gl.BindVertexArray(mesh_layout.name());
+  bindMesh(pane);
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
@@ -307,7 +377,9 @@ void GlassLook::Parts::forget() {
   programs.forget();
   frame_block.forget();
   seen_drops.forget();
+  tile_kinds.forget();
   mesh_layout.forget();
+  tiled_layout.forget();
   no_layout.forget();
   for (gl::Sampler* sampler : {&smooth, &stepped, &mipped, &exact}) sampler->forget();
   no_environment.forget();
@@ -342,6 +414,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     p.fillFrame(pane, view, target, light, settings);
     if (pane.film != 0) p.composeFilm(pane);
     if (pane.beads != 0) p.composeBeads(pane);
+    if (pane.tile_buffer != 0) p.sortTiles(pane);
     p.setState(view, target);
     p.bindLook(light, target);
     if (with_lamps) p.lamps.hide();

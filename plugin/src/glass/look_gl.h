@@ -83,6 +83,9 @@ struct LookPane {
   uint32_t vertex_buffer = 0;
   uint32_t index_buffer = 0;  // uint32_t triangles
   int32_t index_count = 0;
+  // uint32_t of each vertex: the tile of the grid that its triangle lies on, see mesh_cut.h; 0: not told, and
+  // all is drawn as if beads lay everywhere.
+  uint32_t tile_buffer = 0;
   glm::vec3 centre_m{0.0f};  // of the pane's bounding sphere, vehicle frame: panes are drawn from far to near
   float radius_m = 0.0f;
   // The grid's maps, all of `film_size`: uv 0..1 spans the grid.
@@ -112,6 +115,10 @@ struct LookPane {
   int32_t crater_count = 0;
   float drop_age_s = 0.0f;  // the picture's time minus the records': drops are drawn moved on by so much
 };
+
+// As it is now; where it is and which time it is seen at are left to the caller, as are blades and fog.
+struct PaneDrawn;
+LookPane lookPaneOf(const PaneDrawn& drawn);
 
 struct LookSettings {
   int internal_reflections = 6;  // of a ray in a drop, 0 .. 6

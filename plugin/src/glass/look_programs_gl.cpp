@@ -16,11 +16,12 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 8> kSources{
+constexpr std::array<Source, 9> kSources{
     {{"glass/look_screen.vert", "glass/look_film.frag", kPlain},
      {"glass/look_screen.vert", "glass/look_beads.frag", kPlain},
      {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
-     {"glass/look_pane.vert", "glass/look_pane.frag", kInside | kCoarse | kLit},
+     {"glass/look_tiles.comp", "", kPlain},
+     {"glass/look_pane.vert", "glass/look_pane.frag", kInside | kCoarse | kTiled | kBeadless | kLit},
      {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
      {"glass/look_place.comp", "", kLamps | kLit},
      {"glass/look_drop.vert", "glass/look_drop.frag", kLamps | kLit},
@@ -30,11 +31,13 @@ struct Name {
   LookVariant variant;
   const char* define;
 };
-constexpr std::array<Name, 5> kNames{{{kInside, "INSIDE"},
+constexpr std::array<Name, 7> kNames{{{kInside, "INSIDE"},
                                       {kCoarse, "COARSE"},
                                       {kEnvironment, "ENVIRONMENT"},
                                       {kLamps, "LAMPS"},
-                                      {kEncoded, "ENCODED"}}};
+                                      {kEncoded, "ENCODED"},
+                                      {kTiled, "TILED"},
+                                      {kBeadless, "BEADLESS"}}};
 
 gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant) {
   std::vector<std::string> defines;
@@ -47,13 +50,14 @@ gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant
 
 }  // namespace
 
-void LookPrograms::use(LookStage stage, uint32_t variant) {
+const gl::Program& LookPrograms::use(LookStage stage, uint32_t variant) {
   const Source& source = kSources[static_cast<size_t>(stage)];
   const uint32_t asked = variant & source.asks;
   auto known = programs_.find({stage, asked});
   if (known == programs_.end())
     known = programs_.emplace(std::pair(stage, asked), make(*gl_, source, asked)).first;
   known->second.use();
+  return known->second;
 }
 
 void LookPrograms::forget() {

@@ -12,7 +12,7 @@ struct GladGLContext;
 
 namespace rg::glass {
 
-enum class LookStage : uint8_t { film, beads, craters, pane, fog, place, drops, small_drops };
+enum class LookStage : uint8_t { film, beads, craters, tiles, pane, fog, place, drops, small_drops };
 
 // Any of them together; those that a stage does not ask for make no difference to it.
 enum LookVariant : uint32_t {
@@ -22,12 +22,15 @@ enum LookVariant : uint32_t {
   kEnvironment = 4,  // there is a cube of what is all around
   kLamps = 8,        // lamps shine
   kEncoded = 16,     // the target holds sRGB
+  kTiled = 32,       // of the tiles of one kind alone
+  kBeadless = 64,    // on which no beads lie
 };
 
 class LookPrograms {
  public:
   explicit LookPrograms(const GladGLContext& gl) : gl_(&gl) {}
-  void use(LookStage stage, uint32_t variant = kPlain);
+  // Makes it if it is not made yet, and uses it.
+  const gl::Program& use(LookStage stage, uint32_t variant = kPlain);
   void forget();  // the context is gone
 
  private:

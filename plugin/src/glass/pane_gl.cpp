@@ -4,6 +4,7 @@
 
 #include "gl/objects.h"
 #include "glass/film_gl.h"
+#include "glass/mesh_cut.h"
 #include "glass/pane_map.h"
 #include "glass/slide.h"
 
@@ -103,7 +104,7 @@ struct PaneGl::Parts {
   std::shared_ptr<PaneSim> sim;
   FilmGl film;
   Maps maps;
-  gl::Buffer vertices, indices, drops, craters;
+  gl::Buffer vertices, indices, tiles, drops, craters;
   size_t index_count = 0;
   std::optional<double> opening_m;  // none: not made yet
   std::shared_ptr<const PaneSnapshot> drawn;
@@ -147,11 +148,15 @@ void PaneGl::Parts::open(double to_m) {
   if (opening_m == to_m) return;
   opening_m = to_m;
   const Slide& slide = sim->slide();
-  const PaneMesh seen = slide.hides(to_m) ? cutAtSill(sim->mesh(), slide, to_m) : sim->mesh();
+  PaneMesh seen = slide.hides(to_m) ? cutAtSill(sim->mesh(), slide, to_m) : sim->mesh();
   index_count = seen.indices.size();
   if (index_count == 0) return;
-  vertices = gl::Buffer(gl, std::span<const float>(gridVertices(seen, sim->map().grid())));
-  indices = gl::Buffer(gl, std::span<const uint32_t>(seen.indices));
+  seen.vertices = gridVertices(seen, sim->map().grid());
+  const TiledMesh tiled = cutIntoTiles(seen, sim->map().grid().size);
+  index_count = tiled.mesh.indices.size();
+  vertices = gl::Buffer(gl, std::span<const float>(tiled.mesh.vertices));
+  indices = gl::Buffer(gl, std::span<const uint32_t>(tiled.mesh.indices));
+  tiles = gl::Buffer(gl, std::span<const uint32_t>(tiled.tiles));
 }
 
 void PaneGl::open(double opening_m) { parts_->open(opening_m); }
@@ -171,6 +176,7 @@ PaneDrawn PaneGl::drawn() const {
   PaneDrawn out;
   out.vertex_buffer = parts_->vertices.name();
   out.index_buffer = parts_->indices.name();
+  out.tile_buffer = parts_->tiles.name();
   out.index_count = static_cast<int32_t>(parts_->index_count);
   out.slid_m = parts_->opening_m.value_or(0.0) * parts_->sim->slide().direction();
   out.centre_m = map.centre_m();
@@ -227,6 +233,7 @@ void PaneGl::abandon() {
   p.maps.frame.forget();
   p.vertices.forget();
   p.indices.forget();
+  p.tiles.forget();
   p.drops.forget();
   p.craters.forget();
 }

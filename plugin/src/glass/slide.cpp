@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "glass/mesh_cut.h"
+
 namespace rg::glass {
 namespace {
 
@@ -77,34 +79,12 @@ size_t Slide::goneAt(const PaneMap& map, double opening_m) {
   return static_cast<size_t>(std::ranges::lower_bound(ways_m_, opening_m) - ways_m_.begin());
 }
 
-// Each triangle cut as a polygon at a plane (Sutherland & Hodgman 1974), and made a fan of triangles again.
 PaneMesh cutAtSill(const PaneMesh& mesh, const Slide& slide, double opening_m) {
-  constexpr size_t kFloats = 8;
-  using Vertex = std::array<float, kFloats>;
-  PaneMesh out;
-  const auto vertex = [&](uint32_t i) {
-    Vertex v;
-    std::copy_n(mesh.vertices.begin() + static_cast<ptrdiff_t>(kFloats * i), kFloats, v.begin());
-    return v;
-  };
-  const auto left_m = [&](const Vertex& v) { return slide.way_m({v[0], v[1], v[2]}) - opening_m; };
-  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
-    std::vector<Vertex> polygon;
-    for (size_t k = 0; k < 3; ++k) {
-      const Vertex a = vertex(mesh.indices[t + k]), b = vertex(mesh.indices[t + (k + 1) % 3]);
-      const double a_m = left_m(a), b_m = left_m(b);
-      if (a_m >= 0.0) polygon.push_back(a);
-      if ((a_m >= 0.0) == (b_m >= 0.0)) continue;
-      const auto s = static_cast<float>(a_m / (a_m - b_m));
-      Vertex& cut = polygon.emplace_back();
-      for (size_t i = 0; i < kFloats; ++i) cut[i] = a[i] + s * (b[i] - a[i]);
-    }
-    const auto first = static_cast<uint32_t>(out.vertices.size() / kFloats);
-    for (const Vertex& v : polygon) out.vertices.insert(out.vertices.end(), v.begin(), v.end());
-    for (uint32_t k = 2; k < polygon.size(); ++k)
-      out.indices.insert(out.indices.end(), {first, first + k - 1, first + k});
-  }
-  return out;
+  return cutMesh(mesh, [&](const std::vector<MeshVertex>& triangle) {
+    return cutPolygon(triangle, [&](const MeshVertex& v) {
+      return slide.way_m({v[0], v[1], v[2]}) - opening_m;
+    });
+  });
 }
 
 }  // namespace rg::glass
