@@ -28,7 +28,6 @@ void SlotPool::clear() {
 }
 
 void SlotPool::findLowest() {
-  if (free_[0][lowest_] != 0) return;
   lowest_ = 0;
   for (int level = kLevels - 1; level > 0; --level)
     lowest_ = lowest_ * 64 + static_cast<size_t>(std::countr_zero(free_[level][lowest_]));
@@ -86,8 +85,9 @@ void Drops::freeBunch(uint32_t bunch, uint32_t& first) {
 }
 
 void Drops::touch(size_t at, uint64_t bits) {
-  changes_ += static_cast<uint32_t>(std::popcount(bits & ~changed_[at]));
+  uint64_t fresh = bits & ~changed_[at];
   changed_[at] |= bits;
+  for (; fresh != 0; fresh &= fresh - 1) ++changes_;
 }
 
 void Drops::schedule(uint32_t slot, uint32_t now) {

@@ -10,6 +10,7 @@
 
 #include "rain/calendar.h"
 #include "rain/cells.h"
+#include "rain/fetch.h"
 #include "shared/rain_streak.glsl"
 
 namespace rg::rain {
@@ -26,7 +27,7 @@ class SlotPool {
     count = std::min(count, capacity_ - used_);
     used_ += count;
     for (uint32_t left = count; left > 0;) {
-      findLowest();
+      if (free_[0][lowest_] == 0) findLowest();
       const size_t at = lowest_;
       uint64_t rest = free_[0][at], bits = rest;
       for (; rest != 0 && left > 0; rest &= rest - 1) --left;
@@ -106,10 +107,10 @@ class Drops {
   void removeAll(uint32_t& bunch, uint32_t kind);  // all are of one class
   // To the cache, as they will be wanted soon: room for so many drops, and a bunch.
   void fetchRoom(size_t count) const {
-    pool_.forNext(count, [this](uint32_t slot) { __builtin_prefetch(&slots_[slot], 1); });
+    pool_.forNext(count, [this](uint32_t slot) { fetchToWrite(&slots_[slot]); });
   }
   void fetch(uint32_t bunch) const {
-    if (bunch != kNone) __builtin_prefetch(&bunches_[bunch]);
+    if (bunch != kNone) fetchToRead(&bunches_[bunch]);
   }
   // Calls each(slot) for the cell's drops; it may remove that one.
   template <class F>
@@ -127,7 +128,7 @@ class Drops {
   template <class F>
   void expire(uint32_t now, F&& expired) {
     calendar_.turnTo(
-        now, [&](const Calendar::Entry& entry) { __builtin_prefetch(&slots_[entry.slot], 1); },
+        now, [&](const Calendar::Entry& entry) { fetchToWrite(&slots_[entry.slot]); },
         [&](const Calendar::Entry& entry) {
           if (!isRight(entry)) return;
           if (static_cast<int32_t>(slots_[entry.slot].drop.end - now) > 0) {
