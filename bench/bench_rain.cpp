@@ -37,7 +37,7 @@ struct Load {
   double births;  // a tick; 0: what that makes
 };
 constexpr Load kLoads[] = {{20000, 1.4, 31.5, 17.8, 1500},
-                           {200000, 4.5, 7.6, 1.4, 1500},
+                           {200000, 4.43, 7.6, 1.4, 1500},
                            // A drizzle, rain and a cloudburst at 100 km/h.
                            {1000, 0.89, 2, 27.8, 0},
                            {10000, 1.027, 25, 27.8, 0},

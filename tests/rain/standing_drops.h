@@ -9,6 +9,36 @@
 
 namespace rg::rain::test {
 
+// A cell's candidates one by one, as Candidates tells what they are.
+class OneByOne {
+ public:
+  OneByOne(uint64_t seed, const CellKey& key)
+      : state_(splitMix(splitMix(splitMix(seed + kSplitMixStep) ^ wide(key.x, key.y)) +
+                        wide(key.z, static_cast<int32_t>(key.kind)))) {}
+  // False when the next one's chance, and so every later one's, is not above `least`.
+  bool next(double least) {
+    const uint64_t a = draw();
+    chance *= open(a >> 32);
+    if (chance <= least) return false;
+    const uint64_t b = draw();
+    size = open(a & 0xffffffffu);
+    fraction = dvec3(b & 0xffffu, b >> 16 & 0xffffu, b >> 32 & 0xffffu);
+    id = static_cast<uint32_t>(a ^ b >> 32);
+    return true;
+  }
+  double chance = 1.0, size = 0.0;
+  dvec3 fraction{0.0};
+  uint32_t id = 0;
+
+ private:
+  static uint64_t wide(int32_t high, int32_t low) {
+    return uint64_t{static_cast<uint32_t>(high)} << 32 | static_cast<uint32_t>(low);
+  }
+  static double open(uint64_t bits) { return (static_cast<double>(bits) + 0.5) * 0x1p-32; }
+  uint64_t draw() { return splitMix(state_ += kSplitMixStep); }
+  uint64_t state_;
+};
+
 // All drops that the standing field holds within the view's volume, sheltered or not; of many one of so many.
 inline std::vector<LiveDrop> standingDrops(uint64_t seed, const Picture& picture, const Cone& cone,
                                            const InTheAir& air, uint32_t one_of = 1) {
@@ -20,17 +50,17 @@ inline std::vector<LiveDrop> standingDrops(uint64_t seed, const Picture& picture
     const int far = static_cast<int>(kReachPerDiameter * 1e-3 * lattice.reach_mm / lattice.cell_m) + 2;
     for (int x = -far; x <= far; ++x) {
       for (int y = -far; y <= far; ++y) {
-        const CandidateRow row(seed, eye.x + x, eye.y + y);
         for (int z = -far; z <= far; ++z) {
           const CellKey key{eye.x + x, eye.y + y, eye.z + z, kind};
-          Candidates candidates(row, key.z, kind);
-          while (const Candidate* c = candidates.next(least)) {
-            if (c->id % one_of != 0) continue;
+          OneByOne candidate(seed, key);
+          while (candidate.next(least)) {
+            if (candidate.id % one_of != 0) continue;
             LiveDrop d;
-            d.key = {kind, key.x, key.y, key.z, c->id};
+            d.key = {kind, key.x, key.y, key.z, candidate.id};
             d.kind = kind;
-            d.diameter_m = 1e-3 * drawnDiameter_mm(lattice.drops.hydrometeor, air.quantile(kind, c->size));
-            const dvec3 fraction = (dvec3(c->fraction_x, c->fraction_y, c->fraction_z) + 0.5) / 65536.0;
+            d.diameter_m =
+                1e-3 * drawnDiameter_mm(lattice.drops.hydrometeor, air.quantile(kind, candidate.size));
+            const dvec3 fraction = (candidate.fraction + 0.5) / 65536.0;
             d.place_m =
                 picture.classes[kind].origin_m + (dvec3(key.x, key.y, key.z) + fraction) * lattice.cell_m;
             d.velocity_mps = picture.classes[kind].velocity_mps;

@@ -13,6 +13,9 @@ using glm::dvec3;
 constexpr double kReferenceReach = 1.25 * 1663.0;  // per diameter: of the standing lattice's cells
 constexpr double kCut_m = 2.0;  // an eye that is so far from where it was to be has been put there
 constexpr double kLeastTurn_radps = 1.0472;  // 60 deg/s: a turn of the view that needs no warning
+constexpr double kMostAhead = 8.0;           // ticks for which cells are found at most
+constexpr double kMoreCells = 0.1;           // cells that they may grow by for it
+constexpr double kSpare = 0.005;             // cells, for roundings and an eye that changes its velocity
 
 }  // namespace
 
@@ -58,8 +61,7 @@ void Border::follow(const Sought& sought, const ClassFrames& frames) {
   }
   for (auto& view : views_) {
     if (view->told) continue;
-    for (uint32_t kind = 0; kind < kClasses; ++kind)
-      replaceRows(view->rows[view->current][kind], RowSet{}, kind);
+    for (uint32_t kind = 0; kind < kClasses; ++kind) forgetRows(*view, kind);
   }
   std::erase_if(views_, [](const auto& view) { return !view->told; });
   releaseCells();
@@ -70,36 +72,76 @@ void Border::followView(FollowedView& view, const ViewState& told, const Sought&
   const Cone cone = coneOf(told);
   const glm::dquat worldFromEye = glm::quat_cast(glm::transpose(glm::dmat3(told.eyeFromWorld)));
   const dvec3 velocity = eyeVelocityOf(told);
-  double turn = 0.0, surprise_m = 0.0;
+  Motion motion{velocity, 0.0, 0.0, exposureOf(told)};
   const double off_m = glm::distance(cone.eye_m - view.eye_m, velocity * kTickSeconds);
   if (view.moved && !told.discontinuity && cone.valid && off_m < kCut_m) {
-    surprise_m = off_m;
-    turn = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(worldFromEye, view.worldFromEye)))) / kTickSeconds;
+    motion.surprise_m = off_m;
+    motion.turn_radps =
+        2.0 * std::acos(std::min(1.0, std::abs(glm::dot(worldFromEye, view.worldFromEye)))) / kTickSeconds;
   }
   view.moved = cone.valid;
   view.eye_m = cone.eye_m;
   view.worldFromEye = worldFromEye;
-
-  const uint32_t before = view.current, after = 1 - before;
-  view.current = after;
   view.streak_m = 0.0;
   for (uint32_t kind = 0; kind < kClasses; ++kind) {
-    RowSet &was = view.rows[before][kind], &is = view.rows[after][kind];
-    const dvec3 past = frames.velocity(kind) - velocity;
-    Margin margin;
-    margin.ahead_m = past * (1.25 * kTickSeconds);  // a quarter to spare
-    margin.streak_m = past * (0.5 * exposureOf(told));
-    if (sought.classes[kind]) view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
-    const double reach = sought.reach_per_diameter * 1e-3 * classLattices()[kind].reach_mm,
-                 swing_m = classLattices()[kind].swing_m;
-    margin.sides_m =
-        0.02 + swing_m + 1.3 * kTickSeconds * std::max(turn, kLeastTurn_radps) * reach + 1.3 * surprise_m;
-    margin.reach_m = reach + swing_m + 1.25 * kTickSeconds * glm::length(past) + 1.3 * surprise_m;
     if (sought.classes[kind])
-      findRows(cone, margin, (cone.eye_m - frames.origin(kind)) / cell_m(kind), cell_m(kind), is);
-    replaceRows(was, is, kind);
-    was.clear();
+      followClass(view, kind, cone, motion, sought, frames);
+    else
+      forgetRows(view, kind);
   }
+}
+
+// Cells are found for several ticks at once where that makes them but little more, each class in its turn; in
+// the middle of its turn as for all of it, so that who looks in only now sees the same. Whatever else the
+// view does then, they are found anew as soon as they do not hold all that it looks into.
+void Border::followClass(FollowedView& view, uint32_t kind, const Cone& cone, const Motion& motion,
+                         const Sought& sought, const ClassFrames& frames) {
+  const ClassLattice& lattice = classLattices()[kind];
+  const dvec3 past_m = (frames.velocity(kind) - motion.velocity_mps) * kTickSeconds;  // in a tick
+  const double reach = sought.reach_per_diameter * 1e-3 * lattice.reach_mm, cell = cell_m(kind);
+  const double turned_m = 1.3 * kTickSeconds * reach * motion.turn_radps;
+  Margin margin;
+  margin.ahead_m = past_m * 1.25;  // a quarter to spare
+  margin.streak_m = past_m * (0.5 * motion.exposure_s * kTickHz);
+  margin.sides_m = 0.02 + lattice.swing_m + 1.3 * motion.surprise_m +
+                   std::max(turned_m, 1.3 * kTickSeconds * reach * kLeastTurn_radps);
+  margin.middle_m = -0.5 * margin.ahead_m;  // halfway to where the eye will be
+  margin.reach_m = reach + lattice.swing_m + 1.3 * motion.surprise_m + glm::length(margin.middle_m);
+  view.streak_m = std::max(view.streak_m, glm::length(margin.streak_m));
+
+  FollowedView::Known& known = view.known[kind];
+  const dvec3 eye = cone.eye_m - frames.origin(kind);
+  const Region wanted(cone, margin);
+  if (known.found && sought.tick < known.until && known.region.holds(wanted, eye - known.eye_m)) return;
+
+  const double more_m = glm::length(past_m) + turned_m;  // in a tick
+  const auto ticks =
+      static_cast<int64_t>(1.0 + std::min(kMostAhead - 1.0, kMoreCells * cell / std::max(more_m, 1e-6)));
+  const int64_t since = ((sought.tick + kind) % ticks + ticks) % ticks;
+  const double after = static_cast<double>(ticks - 1);
+  known.until = sought.tick - since + ticks;
+  known.eye_m = eye + past_m * static_cast<double>(since);
+  margin.ahead_m += past_m * after;
+  margin.middle_m -= 0.5 * past_m * after;
+  margin.sides_m += turned_m * after + kSpare * cell;
+  margin.reach_m += 0.5 * glm::length(past_m) * after + kSpare * cell;
+  known.region = Region(cone, margin);
+  known.found = true;
+  findRows(cone, margin, known.eye_m / cell, cell, view.rows[kind][1 - known.current]);
+  takeRows(view, kind);
+}
+
+void Border::takeRows(FollowedView& view, uint32_t kind) {
+  uint32_t& current = view.known[kind].current;
+  replaceRows(view.rows[kind][current], view.rows[kind][1 - current], kind);
+  view.rows[kind][current].clear();
+  current = 1 - current;
+}
+
+void Border::forgetRows(FollowedView& view, uint32_t kind) {
+  if (!view.known[kind].found) return;
+  view.known[kind].found = false;
+  takeRows(view, kind);
 }
 
 // Counts the cells that `after` has and `before` had not as entered, and the other way round.

@@ -25,12 +25,21 @@ struct FollowedView {
   glm::dvec3 eye_m{0.0};
   glm::dquat worldFromEye{1, 0, 0, 0};
   double streak_m = 0.0;  // of the longest streak, from the drop to its end
-  uint32_t current = 0;
-  std::array<std::array<RowSet, kClasses>, 2> rows;
+  // A class's cells as they were last found: they do as long as they hold what the view looks into.
+  struct Known {
+    bool found = false;
+    Region region;
+    glm::dvec3 eye_m{0.0};  // in the class's frame
+    int64_t until = 0;      // this tick they are found anew in any case
+    uint32_t current = 0;   // of `rows`
+  };
+  std::array<Known, kClasses> known;
+  std::array<std::array<RowSet, 2>, kClasses> rows;
 };
 
 // What a tick's views look for.
 struct Sought {
+  int64_t tick = 0;
   std::span<const ViewState> views;
   double reach_per_diameter = 1.0;  // drops are seen as far as this times their diameter
   std::bitset<kClasses> classes;    // that may have drops: the others have no cells
@@ -61,7 +70,19 @@ class Border {
   void shift(const glm::dvec3& shift_m);
 
  private:
+  // How a view moves in a tick.
+  struct Motion {
+    glm::dvec3 velocity_mps{0.0};
+    double turn_radps = 0.0;
+    double surprise_m = 0.0;  // so far it is from where its velocity said
+    double exposure_s = 0.0;
+  };
+
   void followView(FollowedView& view, const ViewState& told, const Sought& sought, const ClassFrames& frames);
+  void followClass(FollowedView& view, uint32_t kind, const Cone& cone, const Motion& motion,
+                   const Sought& sought, const ClassFrames& frames);
+  void takeRows(FollowedView& view, uint32_t kind);
+  void forgetRows(FollowedView& view, uint32_t kind);
   void replaceRows(const RowSet& before, const RowSet& after, uint32_t kind);
   void replaceRow(RowSpan was, RowSpan is, uint32_t kind, int32_t y, int32_t z);
   void enter(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t last);

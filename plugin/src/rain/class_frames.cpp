@@ -11,6 +11,8 @@ using glm::dvec3;
 
 namespace {
 
+constexpr double kStraight_m = 1e-4;  // so far a way may leave a line: a tenth of what ends are good to
+
 // Beside the wind's.
 dvec3 ownVelocity(uint32_t kind) {
   const FallClass& c = classLattices()[kind].drops;
@@ -92,7 +94,7 @@ void ClassFrames::findPath(uint32_t kind, ClassPath& path) const {
   const double longest_s = Shelter::kPath_m / std::max(glm::length(velocity(kind)), 0.1);
   path.pieces[0] = {0.0, longest_s, dvec3(0.0), velocity(kind)};
   path.count = 1;
-  path.falls = true;
+  path.falls = path.straight = true;
   double until = 0.0;
   dvec3 to_m(0.0);
   for (uint32_t i = 0; i < past_.count && until > -longest_s; ++i) {
@@ -101,6 +103,7 @@ void ClassFrames::findPath(uint32_t kind, ClassPath& path) const {
     const dvec3 v = share * then.wind_mps + ownVelocity(kind);
     to_m += v * (begin - until);
     path.falls = path.falls && v.z < 0.0;
+    path.straight = path.straight && glm::distance(v, velocity(kind)) * longest_s < kStraight_m;
     path.pieces[path.count++] = {begin, until, to_m, v};
     until = begin;
   }

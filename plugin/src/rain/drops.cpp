@@ -27,35 +27,29 @@ void SlotPool::clear() {
   }
 }
 
-uint32_t SlotPool::take() {
-  if (used_ == capacity_) return kNone;
-  if (free_[0][lowest_] == 0) {
-    lowest_ = 0;
-    for (int level = kLevels - 1; level > 0; --level)
-      lowest_ = lowest_ * 64 + static_cast<size_t>(std::countr_zero(free_[level][lowest_]));
-  }
-  size_t index = lowest_ * 64 + static_cast<size_t>(std::countr_zero(free_[0][lowest_]));
-  const uint32_t slot = static_cast<uint32_t>(index);
-  for (auto& level : free_) {
-    level[index / 64] &= ~(uint64_t{1} << (index % 64));
-    if (level[index / 64] != 0) break;
-    index /= 64;
-  }
-  ++used_;
-  if (slot >= end_) end_ = slot + 1;
-  return slot;
+void SlotPool::findLowest() {
+  lowest_ = 0;
+  for (int level = kLevels - 1; level > 0; --level)
+    lowest_ = lowest_ * 64 + static_cast<size_t>(std::countr_zero(free_[level][lowest_]));
 }
 
-void SlotPool::give(uint32_t slot) {
-  size_t index = slot;
-  lowest_ = std::min(lowest_, index / 64);
-  for (auto& level : free_) {
-    const uint64_t before = level[index / 64];
-    level[index / 64] |= uint64_t{1} << (index % 64);
-    if (before != 0) break;  // it is known above
-    index /= 64;
+void SlotPool::takeOf(size_t at, uint64_t bits) {
+  const auto last = static_cast<uint32_t>(at * 64) + static_cast<uint32_t>(std::bit_width(bits));
+  end_ = std::max(end_, last);
+  free_[0][at] &= ~bits;
+  for (int level = 1; level < kLevels && free_[level - 1][at] == 0; ++level, at /= 64)
+    free_[level][at / 64] &= ~(uint64_t{1} << (at % 64));
+}
+
+void SlotPool::give(size_t at, uint64_t bits, uint32_t count) {
+  lowest_ = std::min(lowest_, at);
+  used_ -= count;
+  bool was_known = free_[0][at] != 0;  // above
+  free_[0][at] |= bits;
+  for (int level = 1; level < kLevels && !was_known; ++level, at /= 64) {
+    was_known = free_[level][at / 64] != 0;
+    free_[level][at / 64] |= uint64_t{1} << (at % 64);
   }
-  --used_;
   while (end_ > 0 && !taken(end_ - 1)) --end_;
 }
 
@@ -90,35 +84,15 @@ void Drops::freeBunch(uint32_t bunch, uint32_t& first) {
   free_bunches_.push_back(bunch);
 }
 
-void Drops::touch(uint32_t slot) {
-  uint64_t& word = changed_[slot / 64];
-  const uint64_t bit = uint64_t{1} << (slot % 64);
-  changes_ += (word & bit) == 0 ? 1u : 0u;
-  word |= bit;
+void Drops::touch(size_t at, uint64_t bits) {
+  uint64_t fresh = bits & ~changed_[at];
+  changed_[at] |= bits;
+  for (; fresh != 0; fresh &= fresh - 1) ++changes_;
 }
 
 void Drops::schedule(uint32_t slot, uint32_t now) {
   slots_[slot].entry = calendar_.write(slot, slots_[slot].drop.end, now,
                                        [this](const Calendar::Entry& entry) { return isRight(entry); });
-}
-
-uint32_t Drops::add(const shared::RainDrop& drop, const End& end, float chance, uint32_t cell,
-                    uint32_t& bunch, uint32_t now) {
-  const uint32_t slot = pool_.take();
-  if (slot == kNone) return kNone;
-  if (bunch == kNone || bunches_[bunch].count == Bunch::kMost) bunch = newBunch(bunch);
-  Slot& born = slots_[slot];
-  born.drop = drop;
-  born.drop.end = end.at;
-  born.cell = cell;
-  born.bunch = bunch;
-  born.entry = kNoEntry;
-  born.chance = chance;
-  ++live_of_[shared::rainClassOf(drop)];
-  bunches_[bunch].slots[bunches_[bunch].count++] = slot;
-  if (end.comes) schedule(slot, now);
-  touch(slot);
-  return slot;
 }
 
 void Drops::remove(uint32_t slot, uint32_t& first) {
@@ -132,13 +106,19 @@ void Drops::remove(uint32_t slot, uint32_t& first) {
   touch(slot);
 }
 
+// Drops that were born together mostly lie together: their slots are given back as many at once as share a
+// word.
 void Drops::removeAll(uint32_t& first, uint32_t kind) {
   for (; first != kNone; freeBunch(first, first)) {
     const Bunch& bunch = bunches_[first];
     fetch(bunch.next);
-    for (uint32_t i = 0; i < bunch.count; ++i) {
-      pool_.give(bunch.slots[i]);
-      touch(bunch.slots[i]);
+    for (uint32_t i = 0; i < bunch.count;) {
+      const size_t at = bunch.slots[i] / 64;
+      const uint32_t begin = i;
+      uint64_t bits = 0;
+      for (; i < bunch.count && bunch.slots[i] / 64 == at; ++i) bits |= uint64_t{1} << (bunch.slots[i] % 64);
+      pool_.give(at, bits, i - begin);
+      touch(at, bits);
     }
     live_of_[kind] -= bunch.count;
   }

@@ -1,6 +1,7 @@
 // The fixed buffer of live drops: slots, the lists they hang in, and when they end.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include "rain/calendar.h"
 #include "rain/cells.h"
+#include "rain/fetch.h"
 #include "shared/rain_streak.glsl"
 
 namespace rg::rain {
@@ -18,8 +20,28 @@ namespace rg::rain {
 class SlotPool {
  public:
   explicit SlotPool(uint32_t capacity);
-  uint32_t take();  // kNone when all are taken
-  void give(uint32_t slot);
+  // Takes up to `count`: calls word(at, bits) for each 64 slots of which some are taken, then each(slot) for
+  // those. Returns how many there were.
+  template <class F, class W>
+  uint32_t take(uint32_t count, F&& each, W&& word) {
+    count = std::min(count, capacity_ - used_);
+    used_ += count;
+    for (uint32_t left = count; left > 0;) {
+      if (free_[0][lowest_] == 0) findLowest();
+      const size_t at = lowest_;
+      uint64_t rest = free_[0][at], bits = rest;
+      for (; rest != 0 && left > 0; rest &= rest - 1) --left;
+      bits &= ~rest;
+      takeOf(at, bits);
+      word(at, bits);
+      for (; bits != 0; bits &= bits - 1)
+        each(static_cast<uint32_t>(at * 64) + static_cast<uint32_t>(std::countr_zero(bits)));
+    }
+    return count;
+  }
+  // Gives back `count` of the 64 slots `at`, a bit for each.
+  void give(size_t at, uint64_t bits, uint32_t count);
+  void give(uint32_t slot) { give(slot / 64, uint64_t{1} << (slot % 64), 1); }
   void clear();
   // Calls each(slot) for the next that will be taken, some `count` of them.
   template <class F>
@@ -34,10 +56,14 @@ class SlotPool {
   uint32_t used() const { return used_; }
   uint32_t end() const { return end_; }  // all taken slots lie below
   bool taken(uint32_t slot) const { return (free_[0][slot / 64] >> (slot % 64) & 1u) == 0; }
+  uint64_t freeOf(size_t at) const { return free_[0][at]; }  // of the 64 slots, a bit for each
 
  private:
   static constexpr int kLevels =
       4;  // a bit for each slot; above, a bit for each word that has a free one: 64^4 slots
+  void findLowest();
+  void takeOf(size_t at, uint64_t bits);
+
   std::vector<uint64_t> free_[kLevels];
   size_t lowest_ = 0;  // no word of slots before it has a free one
   uint32_t capacity_, used_ = 0, end_ = 0;
@@ -54,18 +80,37 @@ class Drops {
     uint32_t at = 0;     // as RainDrop.end
     bool comes = false;  // false: not before the drop is out of sight
   };
-  // `now`: in 1/1024 tick, modulo 2^32, as RainDrop.end. `chance`: as Candidate's. `bunch`: the cell's first,
-  // kNone when it is empty. kNone when full.
-  uint32_t add(const shared::RainDrop& drop, const End& end, float chance, uint32_t cell, uint32_t& bunch,
-               uint32_t now);
+  // Adds up to `count` drops of a class to a cell. `now`: in 1/1024 tick, modulo 2^32, as RainDrop.end.
+  // `bunch`: the cell's first, kNone when it is empty. write(i, drop, chance) fills in the i-th drop and its
+  // chance, as Candidates', and returns its End. Returns how many found room.
+  template <class F>
+  uint32_t add(uint32_t count, uint32_t kind, uint32_t cell, uint32_t& bunch, uint32_t now, F&& write) {
+    uint32_t added = 0;
+    pool_.take(
+        count,
+        [&](uint32_t slot) {
+          if (bunch == kNone || bunches_[bunch].count == Bunch::kMost) bunch = newBunch(bunch);
+          bunches_[bunch].slots[bunches_[bunch].count++] = slot;
+          Slot& born = slots_[slot];
+          const End end = write(added++, born.drop, born.chance);
+          born.drop.end = end.at;
+          born.cell = cell;
+          born.bunch = bunch;
+          born.entry = kNoEntry;
+          if (end.comes) schedule(slot, now);
+        },
+        [&](size_t at, uint64_t bits) { touch(at, bits); });
+    live_of_[kind] += added;
+    return added;
+  }
   void remove(uint32_t slot, uint32_t& bunch);
   void removeAll(uint32_t& bunch, uint32_t kind);  // all are of one class
   // To the cache, as they will be wanted soon: room for so many drops, and a bunch.
   void fetchRoom(size_t count) const {
-    pool_.forNext(count, [this](uint32_t slot) { __builtin_prefetch(&slots_[slot], 1); });
+    pool_.forNext(count, [this](uint32_t slot) { fetchToWrite(&slots_[slot]); });
   }
   void fetch(uint32_t bunch) const {
-    if (bunch != kNone) __builtin_prefetch(&bunches_[bunch]);
+    if (bunch != kNone) fetchToRead(&bunches_[bunch]);
   }
   // Calls each(slot) for the cell's drops; it may remove that one.
   template <class F>
@@ -83,7 +128,7 @@ class Drops {
   template <class F>
   void expire(uint32_t now, F&& expired) {
     calendar_.turnTo(
-        now, [&](const Calendar::Entry& entry) { __builtin_prefetch(&slots_[entry.slot], 1); },
+        now, [&](const Calendar::Entry& entry) { fetchToWrite(&slots_[entry.slot]); },
         [&](const Calendar::Entry& entry) {
           if (!isRight(entry)) return;
           if (static_cast<int32_t>(slots_[entry.slot].drop.end - now) > 0) {
@@ -111,12 +156,17 @@ class Drops {
 
   // How many slots were written or emptied since they were last taken.
   uint32_t changed() const { return changes_; }
-  // Calls each(slot) for them, ascending.
+  // Calls each(slot, record) for them, ascending; an empty slot's record is an empty one.
   template <class F>
   void takeChanged(F&& each) {
-    for (size_t word = 0; changes_ > 0; ++word) {
-      for (uint64_t bits = std::exchange(changed_[word], 0); bits != 0; bits &= bits - 1, --changes_)
-        each(static_cast<uint32_t>(word * 64) + static_cast<uint32_t>(std::countr_zero(bits)));
+    static constexpr shared::RainDrop kNothing{};
+    for (size_t at = 0; changes_ > 0; ++at) {
+      const uint64_t free = pool_.freeOf(at);
+      for (uint64_t bits = std::exchange(changed_[at], 0); bits != 0; bits &= bits - 1, --changes_) {
+        const auto bit = static_cast<uint32_t>(std::countr_zero(bits));
+        const uint32_t slot = static_cast<uint32_t>(at * 64) + bit;
+        each(slot, *((free >> bit & 1u) != 0 ? &kNothing : &slots_[slot].drop));
+      }
     }
   }
 
@@ -140,7 +190,8 @@ class Drops {
   uint32_t newBunch(uint32_t next);
   void freeBunch(uint32_t bunch, uint32_t& first);
   void schedule(uint32_t slot, uint32_t now);
-  void touch(uint32_t slot);
+  void touch(size_t at, uint64_t bits);
+  void touch(uint32_t slot) { touch(slot / 64, uint64_t{1} << (slot % 64)); }
 
   SlotPool pool_;
   std::vector<Slot> slots_;

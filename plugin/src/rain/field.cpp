@@ -100,7 +100,7 @@ void Field::State::findClasses() {
 }
 
 void Field::State::followViews(const Tick& t) {
-  border.follow({t.views, reachPerDiameter(), followed}, frames);
+  border.follow({t.index, t.views, reachPerDiameter(), followed}, frames);
   ceiling_m = -1e30;
   for (const auto& view : border.views()) {
     if (view->moved) ceiling_m = std::max(ceiling_m, view->eye_m.z + kCeilingAboveEye_m);

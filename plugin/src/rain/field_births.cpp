@@ -27,94 +27,123 @@ bool Field::State::lookAround(const CellKey& key, bool past) {
                             time_s(), past);
 }
 
-// Many cells at once. All that may be born in them is found first, then their sizes, which have nothing to
-// wait for but their own logarithms, and meanwhile the room for them comes to the cache.
-void Field::State::fillEnteredCells() {
-  for (uint32_t kind = 0; kind < kClasses; ++kind) least_chance[kind] = chanceAt(rate.most_m3(kind), kind);
-  for (const uint32_t cell : border.entered()) {
-    findComing(cell);
-    if (coming.size() >= kBornAtOnce) bear();
-  }
-  bear();
+// But for its end. Field by field into its place: what is put together elsewhere and copied in larger pieces
+// has to wait until the pieces it was put together from have left the processor.
+inline void Field::State::writeComing(uint32_t kind, uint32_t i, RainDrop& drop) const {
+  drop.cell_x = coming.of.x[i];
+  drop.cell_y = coming.of.y[i];
+  drop.cell_z = coming.of.z[i];
+  drop.fraction_xy = coming.of.fraction_xy[i];
+  drop.fraction_z_class = coming.of.fraction_z[i] | kind << 16;
+  drop.diameter_m = coming.diameter_m[i];
+  drop.id = coming.of.id[i];
 }
 
-void Field::State::bear() {
-  drops.fetchRoom(coming.size());
-  for (Coming& c : coming) c.drop.diameter_m = diameterOf_m(*c.then, cells[c.cell].key.kind, c.size);
-  uint32_t looked_at = kNone;
-  for (const Coming& c : coming) {
-    if (c.cell != looked_at) cells[c.cell].near_volume = lookAround(cells[c.cell].key, true);
-    looked_at = c.cell;
-    if (!birth(c)) break;
+// Many cells of a class at once: all that may be born in them is found first, then their sizes, and meanwhile
+// the room for them comes to the cache.
+void Field::State::fillEnteredCells() {
+  for (uint32_t kind = 0; kind < kClasses; ++kind) {
+    if (followed.test(kind)) least_chance[kind] = chanceAt(rate.most_m3(kind), kind);
   }
-  coming.clear();
+  uint32_t kind = kNone;
+  for (const uint32_t cell : border.entered()) {
+    if (cells[cell].key.kind != kind || coming.of.count >= kBornAtOnce) bear(kind);
+    if (coming.cells.empty()) drops.fetchRoom(2 * kBornAtOnce);
+    kind = cells[cell].key.kind;
+    findComing(cell);
+  }
+  bear(kind);
 }
 
 // A cell of the border is a block of the standing lattice's.
 void Field::State::findComing(uint32_t cell) {
-  const CellKey block = cells[cell].key;
+  const CellKey& key = cells[cell].key;
   const int32_t side = 1 << border.level();
-  for (int32_t x = block.x * side; x < (block.x + 1) * side; ++x) {
-    for (int32_t y = block.y * side; y < (block.y + 1) * side; ++y) {
-      const CandidateRow row(settings.seed, x, y);
-      for (int32_t z = block.z * side; z < (block.z + 1) * side; ++z)
-        findComingOf(cell, {x, y, z, block.kind}, Candidates(row, z, block.kind));
-    }
-  }
+  const size_t first = coming.of.count;
+  findCandidates(settings.seed, {key.x * side, key.y * side, key.z * side, border.level(), key.kind},
+                 least_chance[key.kind], coming.of);
+  if (!rate.steady()) keepThoseOfTheirTime(key.kind, first);
+  coming.cells.push_back({cell, static_cast<uint32_t>(coming.of.count)});
 }
 
-void Field::State::findComingOf(uint32_t cell, const CellKey& key, Candidates candidates) {
-  while (const Candidate* c = candidates.next(least_chance[key.kind])) {
-    const InTheAir& then = rate.steady() ? rate.now() : whenFallen(key, *c);
-    if (!rate.steady() && c->chance <= chanceAt(then.density_m3[key.kind], key.kind)) continue;
-    // Field by field into its place: what is put together elsewhere and copied in larger pieces has to wait
-    // until the pieces it was put together from have left the processor.
-    Coming& comes = coming.emplace_back();
-    comes.drop.cell_x = key.x;
-    comes.drop.cell_y = key.y;
-    comes.drop.cell_z = key.z;
-    comes.drop.fraction_xy = c->fraction_x | c->fraction_y << 16;
-    comes.drop.fraction_z_class = c->fraction_z | key.kind << 16;
-    comes.drop.id = c->id;
-    comes.cell = cell;
-    comes.chance = static_cast<float>(c->chance);
-    comes.size = c->size;
-    comes.then = &then;
+void Field::State::keepThoseOfTheirTime(uint32_t kind, size_t first) {
+  size_t kept = first;
+  for (size_t i = first; i < coming.of.count; ++i) {
+    const InTheAir& then = whenFallen(kind, static_cast<uint32_t>(i));
+    if (coming.of.chance[i] <= chanceAt(then.density_m3[kind], kind)) continue;
+    coming.of.move(kept++, i);
+    coming.then.push_back(&then);
   }
+  coming.of.count = kept;
 }
 
 // What rain there is where a drop is was decided when it fell through the ceiling.
-const InTheAir& Field::State::whenFallen(const CellKey& key, const Candidate& candidate) const {
-  const ClassLattice& lattice = lattices[key.kind];
-  const double z = frames.origin(key.kind).z + (key.z + candidate.fraction_z * 0x1p-16) * lattice.cell_m;
+const InTheAir& Field::State::whenFallen(uint32_t kind, uint32_t i) const {
+  const ClassLattice& lattice = lattices[kind];
+  const double z =
+      frames.origin(kind).z + (coming.of.z[i] + coming.of.fraction_z[i] * 0x1p-16) * lattice.cell_m;
   const double fallen_ticks = (ceiling_m - z) / lattice.drops.speed_mps * static_cast<double>(kTickHz),
-               delay = std::max(set_in.test(key.kind) ? 1.0 : 0.0, fallen_ticks);
+               delay = std::max(set_in.test(kind) ? 1.0 : 0.0, fallen_ticks);
   return rate.ago(static_cast<uint32_t>(std::min(delay, 1e6)));
+}
+
+void Field::State::findDiameters(uint32_t kind) {
+  coming.diameter_m.resize(coming.of.count);
+  if (rate.steady()) {
+    diametersOf_m(rate.now(), kind, std::span(coming.of.size).first(coming.of.count), coming.diameter_m);
+    return;
+  }
+  for (size_t i = 0; i < coming.of.count; ++i)
+    coming.diameter_m[i] = diameterOf_m(*coming.then[i], kind, coming.of.size[i]);
+}
+
+// Those of a cell that no volume keeps from being born, and until when they live.
+void Field::State::findLiving(uint32_t kind, uint32_t first, uint32_t end, bool near_volume) {
+  coming.living.clear();
+  coming.ends.clear();
+  for (uint32_t i = first; i < end; ++i) {
+    RainDrop drop;
+    writeComing(kind, i, drop);
+    const dvec3 place = placeOf(drop);
+    const Passage passage = near_volume ? shelter.passage(place, frames.path(kind), time_s()) : Passage{};
+    const double falls_s = fallsFor(drop, place, passage.enters_s);
+    if (passage.came_through || falls_s <= 0.0) {
+      if (near_volume) ++sheltered;
+      continue;
+    }
+    coming.living.push_back(i);
+    coming.ends.push_back(endOf(falls_s));
+  }
+}
+
+void Field::State::bear(uint32_t kind) {
+  if (coming.cells.empty()) return;
+  findDiameters(kind);
+  const Drops::End none{now() + kEndless, false};
+  uint32_t first = 0;
+  for (const auto& [index, end] : coming.cells) {
+    if (first == end) continue;
+    Cell& cell = cells[index];
+    cell.near_volume = lookAround(cell.key, true);
+    const bool may_end = cell.near_volume || isStone(kind);
+    if (may_end) findLiving(kind, first, end, cell.near_volume);
+    const auto wanted = static_cast<uint32_t>(may_end ? coming.living.size() : end - first);
+    born += drops.add(wanted, kind, index, cell.bunch, now(), [&](uint32_t i, RainDrop& drop, float& chance) {
+      const uint32_t which = may_end ? coming.living[i] : first + i;
+      writeComing(kind, which, drop);
+      chance = static_cast<float>(coming.of.chance[which]);
+      return may_end ? coming.ends[i] : none;
+    });
+    first = end;
+  }
+  coming.of.count = 0;
+  coming.then.clear();
+  coming.cells.clear();
 }
 
 // The least chance of a drop that exists where the law has so many.
 double Field::State::chanceAt(double density_m3, uint32_t kind) const {
   return std::exp(-keep * density_m3 * lattices[kind].cell_m3);
-}
-
-// False when the buffer is full.
-bool Field::State::birth(const Coming& comes) {
-  Cell& cell = cells[comes.cell];
-  const RainDrop& drop = comes.drop;
-  Drops::End end{now() + kEndless, false};
-  if (cell.near_volume || isStone(cell.key.kind)) {
-    const dvec3 place = placeOf(drop);
-    const double falls_s = fallsFor(drop, place, cell.near_volume);
-    if (falls_s <= 0.0 ||
-        (cell.near_volume && shelter.cameThrough(place, frames.path(cell.key.kind), time_s()))) {
-      if (cell.near_volume) ++sheltered;
-      return true;
-    }
-    end = endOf(falls_s);
-  }
-  if (drops.add(drop, end, comes.chance, comes.cell, cell.bunch, now()) == kNone) return false;
-  ++born;
-  return true;
 }
 
 dvec3 Field::State::placeOf(const RainDrop& drop) const {
@@ -125,9 +154,8 @@ dvec3 Field::State::placeOf(const RainDrop& drop) const {
 }
 
 // Until it comes into a volume; a stone also: onto the ground, as that is told now.
-double Field::State::fallsFor(const RainDrop& drop, const dvec3& place, bool near_volume) {
+double Field::State::fallsFor(const RainDrop& drop, const dvec3& place, double enters_s) const {
   const uint32_t kind = shared::rainClassOf(drop);
-  const double enters_s = near_volume ? shelter.willEnter(place, frames.path(kind), time_s()) : kNever_s;
   if (!isStone(kind)) return enters_s;
   const double above_m = place.z - 0.5 * static_cast<double>(drop.diameter_m) - ground_m;
   return std::min(enters_s, above_m / lattices[kind].drops.speed_mps);
@@ -154,10 +182,14 @@ void Field::State::bounce(const RainDrop& stone) {
   bool is_fresh = false;
   if (bounced_cell == kNone) bounced_cell = cells.acquire({0, 0, 0, kBouncedClass}, is_fresh);
   constexpr float kAlways = 2.0f;  // as chance: it is there, however much is thinned
-  const uint32_t slot = drops.add(drop, {end, true}, kAlways, bounced_cell, cells[bounced_cell].bunch, now());
-  if (slot == kNone) return;
-  ++born;
-  ++bounced;
+  const uint32_t added = drops.add(1, kBouncedClass, bounced_cell, cells[bounced_cell].bunch, now(),
+                                   [&](uint32_t, RainDrop& record, float& chance) {
+                                     record = drop;
+                                     chance = kAlways;
+                                     return Drops::End{end, true};
+                                   });
+  born += added;
+  bounced += added;
 }
 
 // What has been foreseen is no longer right: drops that may meet a volume, or were to meet one, are asked
@@ -175,7 +207,10 @@ void Field::State::retestCell(uint32_t index) {
   if (!near_volume && !cell.near_volume) return;
   cell.near_volume = near_volume;
   drops.forEach(cell.bunch, [&](uint32_t slot) {
-    const double falls_s = fallsFor(drops[slot], placeOf(drops[slot]), near_volume);
+    const dvec3 place = placeOf(drops[slot]);
+    const double enters_s =
+        near_volume ? shelter.willEnter(place, frames.path(cell.key.kind), time_s()) : kNever_s;
+    const double falls_s = fallsFor(drops[slot], place, enters_s);
     const Drops::End end = endOf(falls_s);
     if (falls_s <= 0.0) {
       drops.remove(slot, cell.bunch);

@@ -42,9 +42,9 @@ void Field::publish(Upload& upload) {
   size_t at = upload.slots.size();
   upload.slots.resize(at + changed);
   upload.records.resize(at + changed);
-  s.drops.takeChanged([&](uint32_t slot) {
+  s.drops.takeChanged([&](uint32_t slot, const RainDrop& record) {
     upload.slots[at] = slot;
-    upload.records[at++] = s.drops.alive(slot) ? s.drops[slot] : RainDrop{};
+    upload.records[at++] = record;
   });
   s.uploaded += changed * sizeof(RainDrop);
   s.describe(upload.picture);
@@ -61,7 +61,7 @@ void Field::publishAll(Upload& upload) {
     upload.records.push_back(s.drops[slot]);
   }
   s.uploaded += upload.records.size() * sizeof(RainDrop);
-  s.drops.takeChanged([](uint32_t) {});
+  s.drops.takeChanged([](uint32_t, const RainDrop&) {});
   s.describe(upload.picture);
 }
 

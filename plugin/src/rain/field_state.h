@@ -48,15 +48,19 @@ struct Field::State {
   std::vector<RainDrop> fallen;            // stones that came down in this tick
   double keep = 1.0;                       // share of the law's drops that is born
   std::array<double, kClasses> least_chance{};  // of a drop that is born at the wettest rate remembered
-  // What cells that are filled will hold, unless a volume kept it off.
+  // What cells that are filled will hold, unless a volume kept it off: all of one class.
   struct Coming {
-    RainDrop drop{};  // but for its end
-    uint32_t cell = kNone;
-    float chance = 0.0f;
-    double size = 0.0;
-    const InTheAir* then = nullptr;
+    struct Cell {
+      uint32_t index, end;  // its candidates are those before `end`, from the cell's before on
+    };
+    Candidates of;
+    std::vector<const InTheAir*> then;  // where rates have changed: the air it fell into
+    std::vector<float> diameter_m;
+    std::vector<Cell> cells;
+    std::vector<Drops::End> ends;  // of those of a cell that live
+    std::vector<uint32_t> living;  // which these are
   };
-  std::vector<Coming> coming;  // kept for its room
+  Coming coming;  // kept for its room
   uint64_t born = 0, died = 0, sheltered = 0, bounced = 0, uploaded = 0, tests_before = 0;
 
   double time_s() const { return static_cast<double>(tick - epoch) * kTickSeconds; }
@@ -77,12 +81,14 @@ struct Field::State {
   // field_births.cpp: which drops a cell holds, and until when.
   void fillEnteredCells();
   void findComing(uint32_t cell);
-  void findComingOf(uint32_t cell, const CellKey& key, Candidates candidates);
-  void bear();
-  const InTheAir& whenFallen(const CellKey& key, const Candidate& candidate) const;
+  void keepThoseOfTheirTime(uint32_t kind, size_t first);
+  void bear(uint32_t kind);
+  void findDiameters(uint32_t kind);
+  void findLiving(uint32_t kind, uint32_t first, uint32_t end, bool near_volume);
+  void writeComing(uint32_t kind, uint32_t i, RainDrop& drop) const;
+  const InTheAir& whenFallen(uint32_t kind, uint32_t i) const;
   double chanceAt(double density_m3, uint32_t kind) const;
-  bool birth(const Coming& comes);
-  double fallsFor(const RainDrop& drop, const glm::dvec3& place_m, bool near_volume);
+  double fallsFor(const RainDrop& drop, const glm::dvec3& place_m, double enters_s) const;
   void bounce(const RainDrop& stone);
   void retest();
   void retestCell(uint32_t index);

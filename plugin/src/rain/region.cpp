@@ -32,11 +32,10 @@ struct Sides {
 
 Sides sidesOf(const Cone& cone, const Margin& margin, double cell_m) {
   Sides sides;
-  for (const dvec3& n : cone.inward) {
-    const double wider = (std::max(0.0, glm::dot(margin.ahead_m, n)) +
-                          std::abs(glm::dot(margin.streak_m, n)) + margin.sides_m) /
-                             cell_m +
-                         0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  const Region region(cone, margin);
+  for (size_t i = 0; i < 4; ++i) {
+    const dvec3& n = region.inward[i];
+    const double wider = region.wider_m[i] / cell_m + 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     // A plane along x bounds no row in x. Tilting it by 1e-4 moves it by less than 0.003 cells anywhere in
     // reach.
     const double nx = std::abs(n.x) < 1e-4 ? 1e-4 : n.x;
@@ -66,23 +65,32 @@ void extent(const Cone& cone, const Margin& margin, double cell_m, double radius
   // covers 60 deg between them.
   const double wider =
       2.0 * (glm::length(margin.ahead_m) + glm::length(margin.streak_m) + margin.sides_m) / cell_m + 1.5;
-  low = std::max(-radius, radius * nearest - wider);
-  high = std::min(radius, radius * farthest + wider);
+  const double middle_cells = margin.middle_m[axis] / cell_m,
+               deep = radius + glm::length(margin.middle_m) / cell_m;
+  low = std::max(middle_cells - radius, deep * nearest - wider);
+  high = std::min(middle_cells + radius, deep * farthest + wider);
 }
 
 // So many rows along z are found together, as the machine can.
 constexpr int32_t kAtOnce = RowSet::kAtOnce;
 
+// A sphere, from the eye, in cells.
+struct Ball {
+  float x, y, z, radius_sq;
+};
+
 // Whole cells [first, last) whose middle lies between low and high, both within +-22 of the eye; nothing of
 // the kind is an empty span.
-void findSpans(const Sides& sides, float y, float first_z, float radius_sq, float eye_x, int32_t base_x,
+void findSpans(const Sides& sides, const Ball& ball, float y, float first_z, float eye_x, int32_t base_x,
                RowSpan* spans) {
   std::array<float, kAtOnce> z, low, high;
   for (size_t i = 0; i < kAtOnce; ++i) z[i] = first_z + static_cast<float>(i);
   for (size_t i = 0; i < kAtOnce; ++i) {
-    const float rest = radius_sq - y * y - z[i] * z[i], root = std::sqrt(std::max(rest, 0.0f));
-    high[i] = rest > 0.0f ? root : -1.0f;
-    low[i] = -high[i];
+    const float beside_y = y - ball.y, beside_z = z[i] - ball.z;
+    const float rest = ball.radius_sq - beside_y * beside_y - beside_z * beside_z;
+    const float half = rest > 0.0f ? std::sqrt(std::max(rest, 0.0f)) : -1.0f;
+    high[i] = ball.x + half;
+    low[i] = ball.x - half;
   }
   for (int s = 0; s < sides.lows; ++s) {
     const Side& side = sides.low[static_cast<size_t>(s)];
@@ -132,6 +140,24 @@ Cone coneOf(const ViewState& view) {
   return cone;
 }
 
+Region::Region(const Cone& cone, const Margin& margin)
+    : inward(cone.inward), reach_m(margin.reach_m), middle_m(margin.middle_m) {
+  for (size_t i = 0; i < 4; ++i)
+    wider_m[i] = std::max(0.0, glm::dot(margin.ahead_m, inward[i])) +
+                 std::abs(glm::dot(margin.streak_m, inward[i])) + margin.sides_m;
+}
+
+// Within the other's reach a plane that is turned lies elsewhere by that times the difference of the normals.
+bool Region::holds(const Region& other, const dvec3& moved) const {
+  bool inside = other.reach_m + glm::distance(moved + other.middle_m, middle_m) <= reach_m;
+  const double farthest_m = other.reach_m + glm::length(other.middle_m);
+  for (size_t i = 0; i < 4; ++i) {
+    const double turned_m = farthest_m * glm::distance(inward[i], other.inward[i]);
+    inside = inside && other.wider_m[i] + turned_m - glm::dot(moved, inward[i]) <= wider_m[i];
+  }
+  return inside;
+}
+
 double exposureOf(const ViewState& view) {
   return view.exposure_s > 0.0 ? std::min(view.exposure_s, 0.25) : 0.0;
 }
@@ -163,13 +189,15 @@ void findRows(const Cone& cone, const Margin& margin, const dvec3& eye_cells, do
   out.nz = std::clamp(z_last - z_first, 0, RowSet::kRows);
 
   const Sides sides = sidesOf(cone, margin, cell_m);
-  const float radius_sq = static_cast<float>(radius * radius), eye_x = static_cast<float>(eye.x);
+  const glm::vec3 middle(margin.middle_m / cell_m);
+  const Ball ball{middle.x, middle.y, middle.z, static_cast<float>(radius * radius)};
+  const float eye_x = static_cast<float>(eye.x);
   for (int32_t iy = 0; iy < out.ny; ++iy) {
     const float y = static_cast<float>(y_first + iy + 0.5 - eye.y);
     RowSpan* row = out.line(out.y0 + iy);
     for (int32_t iz = 0; iz < out.nz; iz += kAtOnce) {
       const float z = static_cast<float>(z_first + iz + 0.5 - eye.z);
-      findSpans(sides, y, z, radius_sq, eye_x, base_x, row + iz);
+      findSpans(sides, ball, y, z, eye_x, base_x, row + iz);
     }
   }
 }

@@ -28,7 +28,21 @@ struct Margin {
       0.0};  // a drop's way past the eye in the coming tick: room where drops come in, none where they go out
   glm::dvec3 streak_m{0.0};  // half a streak, either sense
   double sides_m = 0.0;      // at the sides, for turning
-  double reach_m = 0.0;      // how far the class is seen
+  double reach_m = 0.0;      // how far the class is seen ..
+  glm::dvec3 middle_m{0.0};  // .. about this place, from the eye
+};
+
+// What a cone widened by a margin is bounded by.
+struct Region {
+  Region() = default;
+  Region(const Cone& cone, const Margin& margin);
+  // Whether all of the other one lies within, its eye having `moved_m` from this one's.
+  bool holds(const Region& other, const glm::dvec3& moved_m) const;
+
+  std::array<glm::dvec3, 4> inward{};
+  std::array<double, 4> wider_m{};  // so far out the sides lie
+  double reach_m = 0.0;
+  glm::dvec3 middle_m{0.0};
 };
 
 // Cells [first, last) of a row along x.

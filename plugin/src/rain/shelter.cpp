@@ -65,6 +65,12 @@ Span timesInSphere(const dvec3& to_centre, const dvec3& v, double until, double 
   return {std::max(0.0, (b - half) / a), std::min(until, (b + half) / a)};
 }
 
+// A straight path as one piece.
+PathPiece wholeOf(const ClassPath& path) {
+  const PathPiece& came = path.pieces[path.count - 1];
+  return {came.from_s, path.pieces[0].to_s, came.from_m, path.pieces[0].velocity_mps};
+}
+
 // A turning body sees a straight path bent: by 2 w x v + w x (w x r) per s2 (Coriolis and the centrifuge).
 // Chords of so many seconds stay within half a millimetre of it (the sagitta is a t^2 / 8).
 double chord_s(double turn_radps, double speed_mps, double radius_m) {
@@ -138,6 +144,10 @@ void Shelter::rebuild() {
   met_.reserve(list_.size());
   met_bodies_.reserve(bodies_.size());
   stack_.reserve(nodes_.size() + 1);
+  size_t planes = 0;
+  for (const auto& volume : list_) planes += volume->shape.planes.size();
+  gates_.reserve(list_.size());
+  gate_planes_.reserve(planes);
 }
 
 // Halves by number along the longest side of the middles' box.
@@ -253,13 +263,38 @@ uint32_t Shelter::lowPieces(const dvec3& middle, const dvec3& half, const ClassP
   return path.count;
 }
 
+// What is the same for all drops of a cell: from which side, and how fast, they pass a volume's planes.
+void Shelter::prepareGates(const dvec3& velocity) {
+  gates_.clear();
+  gate_planes_.clear();
+  for (const uint32_t i : met_) {
+    Gate gate;
+    const auto add = [&](auto&& is_wanted) {
+      for (const Plane& plane : list_[i]->shape.planes) {
+        const double rate = glm::dot(plane.normal, velocity);
+        if (is_wanted(rate)) gate_planes_.push_back({plane.normal, plane.d, rate == 0.0 ? 0.0 : 1.0 / rate});
+      }
+      return static_cast<uint32_t>(gate_planes_.size());
+    };
+    gate.along = add([](double rate) { return rate == 0.0; });
+    gate.inwards = add([](double rate) { return rate < 0.0; });
+    gate.outwards = add([](double rate) { return rate > 0.0; });
+    gates_.push_back(gate);
+  }
+}
+
 bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath& path, double now_s,
                          bool past) {
   met_.clear();
   met_bodies_.clear();
   if (list_.empty()) return false;
   low_pieces_ = nodes_.empty() ? 0 : past ? lowPieces(middle, half, path) : 1;
-  for (uint32_t k = 0; k < low_pieces_; ++k) gatherStatic(middle, half, path.pieces[k]);
+  if (low_pieces_ > 1 && path.straight) {
+    gatherStatic(middle, half, wholeOf(path));
+    prepareGates(path.pieces[0].velocity_mps);
+  } else {
+    for (uint32_t k = 0; k < low_pieces_; ++k) gatherStatic(middle, half, path.pieces[k]);
+  }
   gatherBodies(middle, glm::length(half), path, now_s, past);
   return !met_.empty() || !met_bodies_.empty();
 }
@@ -329,6 +364,30 @@ bool Shelter::cameThrough(const dvec3& place, const ClassPath& path, double now_
     }
   }
   return false;
+}
+
+// On a straight path a drop is inside a volume once at most: before now, or to come.
+Passage Shelter::passage(const dvec3& place, const ClassPath& path, double now_s) {
+  if (!path.straight || !met_bodies_.empty() || low_pieces_ <= 1)
+    return {cameThrough(place, path, now_s), willEnter(place, path, now_s)};
+  const PathPiece whole = wholeOf(path);
+  Passage passage;
+  const GatePlane* plane = gate_planes_.data();
+  for (const Gate& gate : gates_) {
+    ++tests_;
+    double farthest_out = -1.0, enter = whole.from_s, leave = whole.to_s;
+    const auto outside = [&] { return glm::dot(plane->normal, place) - plane->d; };
+    for (const GatePlane* end = &gate_planes_[0] + gate.along; plane != end; ++plane)
+      farthest_out = std::max(farthest_out, outside());
+    for (const GatePlane* end = &gate_planes_[0] + gate.inwards; plane != end; ++plane)
+      enter = std::max(enter, -outside() * plane->per_rate_s);
+    for (const GatePlane* end = &gate_planes_[0] + gate.outwards; plane != end; ++plane)
+      leave = std::min(leave, -outside() * plane->per_rate_s);
+    if (farthest_out > 0.0 || enter > leave) continue;
+    passage.came_through = passage.came_through || enter <= 0.0;
+    if (leave >= 0.0) passage.enters_s = std::min(passage.enters_s, std::max(enter, 0.0));
+  }
+  return passage;
 }
 
 double Shelter::willEnter(const dvec3& place, const ClassPath& path, double now_s) {

@@ -40,7 +40,14 @@ struct ClassPath {
   static constexpr uint32_t kMost = 1 + WindPath::Past::kMost;
   std::array<PathPiece, kMost> pieces;
   uint32_t count = 0;
-  bool falls = true;  // all the way it came, downwards
+  bool falls = true;      // all the way it came, downwards
+  bool straight = false;  // it came as it will go on: one line
+};
+
+// What a drop's path meets.
+struct Passage {
+  bool came_through = false;  // a volume, or it is in one
+  double enters_s = kNever_s;
 };
 
 class Shelter {
@@ -68,6 +75,8 @@ class Shelter {
                   bool past);
   // Whether a drop that is at `place_m` now came through a volume, or is in one.
   bool cameThrough(const glm::dvec3& place_m, const ClassPath& path, double now_s);
+  // Both at once, after lookAround() with the past.
+  Passage passage(const glm::dvec3& place_m, const ClassPath& path, double now_s);
   // When it will enter one, relative to now; 0 when it is inside, kNever_s when it will not.
   double willEnter(const glm::dvec3& place_m, const ClassPath& path, double now_s);
 
@@ -111,6 +120,7 @@ class Shelter {
   void split(uint32_t node, uint32_t first, uint32_t count);
   void gatherStatic(const glm::dvec3& middle_m, const glm::dvec3& half_m, const PathPiece& piece);
   uint32_t lowPieces(const glm::dvec3& middle_m, const glm::dvec3& half_m, const ClassPath& path) const;
+  void prepareGates(const glm::dvec3& velocity_mps);
   void gatherBodies(const glm::dvec3& middle_m, double radius_m, const ClassPath& path, double now_s,
                     bool past);
   double entryDuring(const Body& body, const BodyPath::Piece& motion, const glm::dvec3& from_m,
@@ -129,7 +139,17 @@ class Shelter {
   std::map<uint32_t, Body> bodies_;
   std::vector<uint32_t> met_;            // found by lookAround: static volumes
   std::vector<const Body*> met_bodies_;  // and bodies
-  uint32_t low_pieces_ = 0;              // of the path, low enough for static volumes
+  // A static volume for drops of one velocity: its planes by how these pass them, and where each sort ends.
+  struct GatePlane {
+    glm::dvec3 normal{0.0};
+    double d = 0.0, per_rate_s = 0.0;  // passed 1 m/s / rate after it is 1 m away
+  };
+  struct Gate {
+    uint32_t along = 0, inwards = 0, outwards = 0;
+  };
+  std::vector<GatePlane> gate_planes_;  // of the volumes in `met_`, when the path is straight
+  std::vector<Gate> gates_;
+  uint32_t low_pieces_ = 0;  // of the path, low enough for static volumes
   std::vector<uint32_t> stack_;
   uint64_t tests_ = 0;
 };

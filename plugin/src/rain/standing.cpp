@@ -11,18 +11,109 @@ constexpr double kReferenceReach_per_m = 1.25 * 1663.0;  // visibility factor 1.
 constexpr double kCellsPerReach = 6.0;
 
 // ln(x) for x in (0, 1] (not below 1e-300), from exact operations alone so that every machine's rain is the
-// same: x = m 2^e, ln m = 2 atanh((m - 1) / (m + 1)), |s| < 0.172 below. So many terms of its series leave
-// out less than 3e-8.
-double portableLog(double x) {
-  const auto bits = std::bit_cast<uint64_t>(x);
-  int exponent = static_cast<int>(bits >> 52) - 1022;
-  double mantissa = std::bit_cast<double>((bits & 0x000fffffffffffffu) | 0x3fe0000000000000u);  // 0.5 .. 1
-  if (mantissa < 0.70710678118654752) {
-    mantissa *= 2.0;
-    --exponent;
+// same: x = m 2^e with m in [sqrt(1/2), sqrt(2)), ln m = 2 atanh((m - 1) / (m + 1)), |s| < 0.172 below. So
+// many terms of its series leave out less than 3e-8. No branches: several are worked out side by side.
+inline double portableLog(double x) {
+  constexpr uint64_t kRootHalf = 0x3fe6a09e667f3bcdu, kMantissa = 0x000fffffffffffffu;
+  constexpr uint64_t kEven = 0x4330000000000000u;  // 2^52: what is put into its lowest bits is added to it
+  const uint64_t above = std::bit_cast<uint64_t>(x) + (0x3ff0000000000000u - kRootHalf);
+  const double exponent = std::bit_cast<double>(above >> 52 | kEven) - (0x1p52 + 1023.0);
+  const double m = std::bit_cast<double>((above & kMantissa) + kRootHalf);
+  const double s = (m - 1.0) / (m + 1.0), q = s * s;
+  return 2.0 * s * (1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7)))) + exponent * 0.69314718055994531;
+}
+
+// What the sizes of a class are spread by.
+struct Spread {
+  Spread(const InTheAir& air, uint32_t kind) : part(air.part[kind]), from_mm(fallClasses()[kind].from_mm) {
+    const double slope = air.slope_per_mm[static_cast<uint32_t>(fallClasses()[kind].hydrometeor)];
+    length_mm = slope > 0.0 ? 1.0 / slope : 0.0;
   }
-  const double s = (mantissa - 1.0) / (mantissa + 1.0), q = s * s;
-  return 2.0 * s * (1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q / 7))) + exponent * 0.69314718055994531;
+  double sizeAt_mm(double share) const { return from_mm - length_mm * portableLog(1.0 - part * share); }
+  double part, from_mm, length_mm;
+};
+
+inline float inSteps_m(double mm) {
+  return static_cast<float>(static_cast<double>(static_cast<int32_t>(mm * 1e4 + 0.5)) * 1e-7);
+}
+
+constexpr size_t kAtOnce = 8;  // diameters: as many as a machine works out side by side, whichever it is
+
+void sizesOf_m(const Spread& spread, const double* shares, float* out) {
+  std::array<float, kAtOnce> sizes;
+  for (size_t i = 0; i < kAtOnce; ++i) sizes[i] = inSteps_m(spread.sizeAt_mm(shares[i]));
+  std::copy(sizes.begin(), sizes.end(), out);
+}
+
+constexpr uint32_t kCellsAtOnce = 64;
+
+inline double halfOpen(uint32_t bits) { return (static_cast<double>(bits) + 0.5) * 0x1p-32; }
+
+// Cells of which a candidate has been drawn that exists: it is the next one's turn.
+struct Opened {
+  std::array<uint64_t, kCellsAtOnce> state, drawn;
+  std::array<double, kCellsAtOnce> chance;
+  std::array<uint32_t, kCellsAtOnce> cell;
+
+  // Draws a cell's next candidate, as the `count`-th. Returns how many there are then: the cell is forgotten
+  // when its chance, and so every later one's, is not above `least`. As that is unforeseeable, a jump would
+  // cost more than what it spares.
+  uint32_t drawNext(uint32_t count, uint64_t before, double chance_before, uint32_t of, double least) {
+    state[count] = before + kSplitMixStep;
+    drawn[count] = splitMix(state[count]);
+    chance[count] = chance_before * halfOpen(static_cast<uint32_t>(drawn[count] >> 32));
+    cell[count] = of;
+    return count + (chance[count] > least ? 1u : 0u);
+  }
+};
+
+// Which of its block a cell is: counted along z, then y, then x.
+struct Within {
+  Within(uint32_t cell, uint32_t level)
+      : x(cell >> 2 * level), y(cell >> level & ((1u << level) - 1)), z(cell & ((1u << level) - 1)) {}
+  uint32_t x, y, z;
+};
+
+// The first candidates of the cells [first, last) of a block.
+uint32_t open(uint64_t seed, const Block& block, uint32_t first, uint32_t last, double least,
+              Opened& opened) {
+  uint32_t count = 0;
+  uint64_t row = 0;
+  for (uint32_t cell = first; cell < last; ++cell) {
+    const Within at(cell, block.level);
+    const uint32_t x = static_cast<uint32_t>(block.x) + at.x, y = static_cast<uint32_t>(block.y) + at.y,
+                   z = static_cast<uint32_t>(block.z) + at.z;
+    if (cell == first || at.z == 0) row = splitMix(splitMix(seed + kSplitMixStep) ^ (uint64_t{x} << 32 | y));
+    count = opened.drawNext(count, splitMix(row + (uint64_t{z} << 32 | block.kind)), 1.0, cell, least);
+  }
+  return count;
+}
+
+// Writes out a candidate of each opened cell and draws their next ones.
+uint32_t takeRound(const Block& block, uint32_t count, double least, Opened& opened, Candidates& out) {
+  const size_t begin = out.count;
+  out.makeRoom(begin + count);
+  out.count += count;
+  // Where the columns lie is known to stay while they are written.
+  double *chance = &out.chance[begin], *size = &out.size[begin];
+  int32_t *x = &out.x[begin], *y = &out.y[begin], *z = &out.z[begin];
+  uint32_t *fraction_xy = &out.fraction_xy[begin], *fraction_z = &out.fraction_z[begin], *id = &out.id[begin];
+  uint32_t left = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint64_t state = opened.state[i] + kSplitMixStep, a = opened.drawn[i], b = splitMix(state);
+    const uint32_t cell = opened.cell[i];
+    const Within at(cell, block.level);
+    chance[i] = opened.chance[i];
+    size[i] = halfOpen(static_cast<uint32_t>(a));
+    x[i] = block.x + static_cast<int32_t>(at.x);
+    y[i] = block.y + static_cast<int32_t>(at.y);
+    z[i] = block.z + static_cast<int32_t>(at.z);
+    fraction_xy[i] = static_cast<uint32_t>(b);
+    fraction_z[i] = static_cast<uint32_t>(b >> 32 & 0xffffu);
+    id[i] = static_cast<uint32_t>(a ^ b >> 32);
+    left = opened.drawNext(left, state, opened.chance[i], cell, least);
+  }
+  return left;
 }
 
 }  // namespace
@@ -53,11 +144,41 @@ const std::array<ClassLattice, kClasses>& classLattices() {
 }
 
 float diameterOf_m(const InTheAir& air, uint32_t kind, double size) {
-  const FallClass& c = fallClasses()[kind];
-  const double slope = air.slope_per_mm[static_cast<uint32_t>(c.hydrometeor)];
-  const double mm = slope > 0.0 ? c.from_mm - portableLog(1.0 - size * air.part[kind]) / slope : c.from_mm;
-  const double across_mm = drawnDiameter_mm(c.hydrometeor, mm);
-  return static_cast<float>(static_cast<double>(static_cast<int64_t>(across_mm * 1e4 + 0.5)) * 1e-7);
+  return inSteps_m(drawnDiameter_mm(fallClasses()[kind].hydrometeor, Spread(air, kind).sizeAt_mm(size)));
+}
+
+void diametersOf_m(const InTheAir& air, uint32_t kind, std::span<const double> sizes, std::span<float> out) {
+  size_t i = 0;
+  if (fallClasses()[kind].hydrometeor == Hydrometeor::kRain) {  // as wide as the laws say
+    const Spread spread(air, kind);
+    for (; i + kAtOnce <= sizes.size(); i += kAtOnce) sizesOf_m(spread, &sizes[i], &out[i]);
+  }
+  for (; i < sizes.size(); ++i) out[i] = diameterOf_m(air, kind, sizes[i]);
+}
+
+void Candidates::makeRoom(size_t for_count) {
+  if (for_count <= chance.size()) return;
+  const size_t room = std::bit_ceil(std::max<size_t>(for_count, 1024));
+  for (auto* column : {&chance, &size}) column->resize(room);
+  for (auto* column : {&x, &y, &z}) column->resize(room);
+  for (auto* column : {&fraction_xy, &fraction_z, &id}) column->resize(room);
+}
+
+void Candidates::move(size_t to, size_t from) {
+  for (auto* column : {&chance, &size}) (*column)[to] = (*column)[from];
+  for (auto* column : {&x, &y, &z}) (*column)[to] = (*column)[from];
+  for (auto* column : {&fraction_xy, &fraction_z, &id}) (*column)[to] = (*column)[from];
+}
+
+// Round by round: the first candidates of many cells, then the second ones of those that have any, and so on.
+// How many a cell has is unforeseeable; how many of all have one more is told by the round before.
+void findCandidates(uint64_t seed, const Block& block, double least, Candidates& out) {
+  const uint32_t cells = 1u << 3 * block.level;
+  Opened opened;
+  for (uint32_t first = 0; first < cells; first += kCellsAtOnce) {
+    uint32_t count = open(seed, block, first, std::min(first + kCellsAtOnce, cells), least, opened);
+    while (count > 0) count = takeRound(block, count, least, opened, out);
+  }
 }
 
 void RateHistory::fill(const Rates& rates) {

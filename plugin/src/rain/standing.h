@@ -3,21 +3,29 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "rain/cells.h"
 #include "rain/hydrometeors.h"
 
 namespace rg::rain {
 
-// A drop that may be: it exists wherever its cell would be empty of drops with a probability, exp(-mean
-// number), below `chance`. The chances of a cell are products of uniform numbers (Knuth, The Art of Computer
-// Programming 2, 3.4.1), so that the drops that exist are a Poisson field of the right density at every rate,
-// and a rate that changes only adds or takes away drops, never swaps them.
-struct Candidate {
-  double chance = 1.0;
-  uint32_t fraction_x = 0, fraction_y = 0, fraction_z = 0;  // of the cell, 16 bits
-  double size = 0.0;  // 0 .. 1, its place among the class's drops ordered by size
-  uint32_t id = 0;
+// Drops that may be, of one class, column by column. One exists wherever its cell would be empty of drops
+// with a probability, exp(-mean number), below `chance`. The chances of a cell are products of uniform
+// numbers (Knuth, The Art of Computer Programming 2, 3.4.1), so that the drops that exist are a Poisson field
+// of the right density at every rate, and a rate that changes only adds or takes away drops, never swaps
+// them.
+struct Candidates {
+  std::vector<double> chance;
+  std::vector<double> size;  // 0 .. 1, its place among the class's drops ordered by size
+  std::vector<int32_t> x, y, z;
+  std::vector<uint32_t> fraction_xy, fraction_z;  // of the cell, 16 bits each
+  std::vector<uint32_t> id;
+
+  size_t count = 0;  // columns have room for more
+  void makeRoom(size_t for_count);
+  void move(size_t to, size_t from);
 };
 
 // Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators": SplitMix64.
@@ -28,46 +36,14 @@ inline uint64_t splitMix(uint64_t z) {
   return z ^ (z >> 31);
 }
 
-// What the cells of a row along z have in common, of all classes.
-class CandidateRow {
- public:
-  CandidateRow(uint64_t seed, int32_t x, int32_t y)
-      : state(splitMix(splitMix(seed + kSplitMixStep) ^
-                       (uint64_t{static_cast<uint32_t>(x)} << 32 | static_cast<uint32_t>(y)))) {}
-  const uint64_t state;
+// A cube of 2^level cells of the standing lattice along each axis.
+struct Block {
+  int32_t x = 0, y = 0, z = 0;  // the first cell
+  uint32_t level = 0;
+  uint32_t kind = 0;
 };
-
-// Walks a cell's candidates, chances descending without end.
-class Candidates {
- public:
-  Candidates(const CandidateRow& row, int32_t z, uint32_t kind)
-      : state_(splitMix(row.state + (uint64_t{static_cast<uint32_t>(z)} << 32 | kind))) {}
-  // The next one, valid until the call after; null when its chance, and so every later one's, is not above
-  // `least`. Most cells end here, so that this is all that is worked out for them.
-  const Candidate* next(double least) {
-    const uint64_t a = draw();
-    candidate_.chance *= (static_cast<double>(static_cast<uint32_t>(a >> 32)) + 0.5) * 0x1p-32;
-    return candidate_.chance > least ? &drawRest(a) : nullptr;
-  }
-
- private:
-  uint64_t draw() {
-    state_ += kSplitMixStep;
-    return splitMix(state_);
-  }
-  const Candidate& drawRest(uint64_t a) {
-    const uint64_t b = draw();
-    candidate_.size = (static_cast<double>(static_cast<uint32_t>(a)) + 0.5) * 0x1p-32;
-    candidate_.fraction_x = static_cast<uint32_t>(b & 0xffffu);
-    candidate_.fraction_y = static_cast<uint32_t>(b >> 16 & 0xffffu);
-    candidate_.fraction_z = static_cast<uint32_t>(b >> 32 & 0xffffu);
-    candidate_.id = static_cast<uint32_t>(a ^ b >> 32);
-    return candidate_;
-  }
-
-  uint64_t state_;
-  Candidate candidate_;
-};
+// Adds those candidates of the block's cells whose chance is above `least`.
+void findCandidates(uint64_t seed, const Block& block, double least, Candidates& out);
 
 // What is fixed about a class: its drops and its cells.
 struct ClassLattice {
@@ -86,6 +62,7 @@ const std::array<ClassLattice, kClasses>& classLattices();
 // What a candidate's particle measures across, in whole tenths of a micrometre, so that the last digit of a
 // machine's logarithm does not show.
 float diameterOf_m(const InTheAir& air, uint32_t kind, double size);
+void diametersOf_m(const InTheAir& air, uint32_t kind, std::span<const double> sizes, std::span<float> out);
 
 // Densities of all classes as the rates were over the last seconds: rain that sets in fills the sky from
 // above.
