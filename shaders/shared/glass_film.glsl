@@ -41,8 +41,9 @@ struct FilmCell {
   float h_m;
   int x_pl;      // what it wants to give along x: > 0 to x + 1, < 0 to x - 1
   int y_pl;
-  float pressure; // times the cube of a thickness (m^3): the picolitres that pass through a face in a step
-  float most_m3;  // the largest such cube with which a step is stable
+  float heaviness;  // times the cube of a thickness (m^3): the picolitres that pass through a face in a step by its film's weight
+  float hollowness; // ... that surface tension draws in
+  float heavy_m3, tense_m3; // the largest such cubes with which a step is stable
   float entry_m;  // how thick a film must be that is driven straight into it: 0 off the pane and where it is wet
 };
 
@@ -99,18 +100,23 @@ RG_CONST float kMostTurn = 0.75f;
 // Where it has dry glass beside it a stream follows its edge, whose way over uneven glass is not straight down.
 RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y, along.x)) / (1.0f + turn * turn); }
 
-// A step's explicit differences damp what changes from texel to texel by 64 of tension's and 8 of weight's share, and waves by twice their way: beyond
-// two in all it would grow. What waves leave of two, less some of it, so that what alternates dies away within a few steps.
-RG_CONST float kStable = 1.4f;
+// Differences of a step damp what changes from texel to texel by 64 of tension's share and 8 of weight's, and waves by twice their way: beyond two in all
+// it would grow. Of what waves leave of two these are for tension and for weight; the rest is there so that what alternates dies away.
+RG_CONST float kTensionsPart = 0.9f;
+RG_CONST float kWeightsPart = 0.5f;
 
 // Pressure of lubrication theory, p = rho g cos a h - gamma lap h (Oron, Davis & Bankoff 1997, Rev. Mod. Phys. 69), whose flux is
-// -h^3 / (3 mu) grad p. As if texels were square and their neighbours as large as they.
+// -h^3 / (3 mu) grad p. As if texels were square and their neighbours as large as they. Thick film on fine texels is slower than that, tension more so:
+// except where the film hangs, and tension is what keeps its weight from drawing short waves out.
 RG_FN void press(RG_INOUT(FilmCell) cell, int hollow_pl, float courant, float per_m2, RG_IN(FilmStepInfo) info) {
   RG_EXACT float weight = kNusselt_per_m_s * kFilmStep_s * info.pressing_mps2 * per_m2, tension = kTension_m3 * per_m2 * per_m2;
-  RG_EXACT float pressure = weight * float(cell.volume_pl) - tension * float(hollow_pl);
-  cell.pressure = pressure;
-  RG_EXACT float most_m3 = kStable * (1.0f - min(3.0f * courant, kFastest_cells)) / (64.0f * tension + 8.0f * abs(weight));
-  cell.most_m3 = most_m3;
+  RG_EXACT float heaviness = weight * float(cell.volume_pl), hollowness = tension * float(hollow_pl);
+  cell.heaviness = heaviness;
+  cell.hollowness = hollowness;
+  float left = 1.0f - min(3.0f * courant, kFastest_cells);
+  RG_EXACT float tense_m3 = left * (kTensionsPart / 64.0f) / tension, heavy_m3 = left * (kWeightsPart / 8.0f) / max(abs(weight), 1.0f);
+  cell.tense_m3 = tense_m3;
+  cell.heavy_m3 = weight < 0.0f ? min(tense_m3, heavy_m3) : heavy_m3;
 }
 
 RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
@@ -119,8 +125,10 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   cell.h_m = thickness_m(volume_pl, metric);
   cell.x_pl = 0;
   cell.y_pl = 0;
-  cell.pressure = 0.0f;
-  cell.most_m3 = 0.0f;
+  cell.heaviness = 0.0f;
+  cell.hollowness = 0.0f;
+  cell.heavy_m3 = 0.0f;
+  cell.tense_m3 = 0.0f;
   cell.entry_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
   // Two fronts that meet over a texel take it between them.
   if (volume_pl < 0 || cell.h_m >= info.pin_m || 2.0f * thickness_m(around.gap_pl, metric) >= cell.entry_m) cell.entry_m = 0.0f;
@@ -144,7 +152,8 @@ RG_FN float rounding(RG_IN(FilmStepInfo) info) { return unitFloat(pcg(info.step)
 RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) info) {
   if (a.h_m < info.pin_m || b.h_m < info.pin_m) return 0;
   RG_EXACT float cube_m3 = a.h_m * b.h_m * (0.5f * (a.h_m + b.h_m));
-  RG_EXACT float flow = min(cube_m3, min(a.most_m3, b.most_m3)) * (a.pressure - b.pressure);
+  RG_EXACT float flow = min(cube_m3, min(a.heavy_m3, b.heavy_m3)) * (a.heaviness - b.heaviness) -
+                        min(cube_m3, min(a.tense_m3, b.tense_m3)) * (a.hollowness - b.hollowness);
   int size = min(int(abs(flow) + rounding(info)), (flow > 0.0f ? a.volume_pl : b.volume_pl) >> 3);
   return flow > 0.0f ? size : -size;
 }

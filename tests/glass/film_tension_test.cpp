@@ -45,7 +45,7 @@ class FilmTension : public GlTest {
     const double before = amplitude();
     const int64_t volume_pl = film.volume_pl();
     const double law = decay_per_s(h_m, total_k, pressing_mps2);
-    const int steps = std::max(20, static_cast<int>(0.5 / law / kStepOfFilm_s));
+    const int steps = std::max(20, static_cast<int>(0.5 / std::abs(law) / kStepOfFilm_s));
     film.run(steps, pressing_mps2);
     EXPECT_EQ(film.volume_pl(), volume_pl);
     const double ratio = std::log(before / amplitude()) / (law * steps * kStepOfFilm_s);
@@ -87,7 +87,26 @@ TEST_F(FilmTension, finerGridsComeNearer) {
   EXPECT_LT(fine, 0.35 * coarse);
 }
 
-// Where a step cannot follow, thick film on fine texels, waves decay slower, never faster, and never grow.
+// Where a step cannot follow, thick film on fine texels, weight still levels long waves; short ones, which
+// tension levels in no time, take longer but go.
+TEST_F(FilmTension, fineTexelsLevelLongWavesInHalfTheirRate) {
+  for (const double h_m : {60e-6, 100e-6}) {
+    const double ratio = decayByTheLaw(h_m, 36e-3, 8.5, 0.75e-3);
+    EXPECT_GT(ratio, 0.45);
+    EXPECT_LT(ratio, 1.02);
+  }
+}
+
+// A film that hangs draws out into waves longer than 2 pi times the capillary length, 17 mm, and no shorter
+// ones (Rayleigh & Taylor).
+TEST_F(FilmTension, hangingFilmsDrawOutLongWavesAlone) {
+  for (const double texel_m : {0.75e-3, 3e-3}) {
+    EXPECT_GT(decayByTheLaw(100e-6, 12e-3, -9.81, texel_m), 0.0);
+    EXPECT_GT(decayByTheLaw(100e-6, 36e-3, -9.81, texel_m), 0.0);  // of a rate below 0
+  }
+}
+
+// Nothing grows from texel to texel, however thick the film.
 TEST_F(FilmTension, roughFilmsOfAnyThicknessGrowSmooth) {
   for (const double texel_m : {0.75e-3, 3e-3}) {
     for (const double h_m : {8e-6, 60e-6, 150e-6, 280e-6}) {

@@ -39,6 +39,10 @@ class LoneFilm {
 
   // `pressing`: acceleration onto the glass, `down`: along it to its lower edge.
   void run(int steps, double pressing_mps2, double down_mps2 = 0.0) {
+    run(steps, pressing_mps2, {0.0, -down_mps2, 0.0, 0.0});
+  }
+  // `drive`: acceleration along x (to the right) and y (up), shear likewise.
+  void run(int steps, double pressing_mps2, glm::dvec4 drive) {
     for (int k = 0; k < steps; ++k, ++step_) {
       std::vector<glass::FilmOrder> orders(1);
       glass::FilmOrder& order = orders[0];
@@ -55,9 +59,13 @@ class LoneFilm {
       order.info.rupture_chance = static_cast<float>(glass.rupture_hz * shared::kDryingSteps / 60.0);
       order.info.bead_mm3_per_pl = static_cast<float>(1e-6 / glass::capShape(glass::meanAngle(glass)));
       order.info.pressing_mps2 = static_cast<float>(pressing_mps2);
-      order.drive.assign(map_.nodes().size(), {0.0f, static_cast<float>(-down_mps2), 0.0f, 0.0f});
+      order.drive.assign(map_.nodes().size(), shared::vec4(drive));
       film_.run(std::move(orders));
-      film_.collect(true);
+      const std::vector<glass::FilmReport> reports = film_.collect(true);
+      for (const shared::FilmTile& tile : reports.at(0).tiles) {
+        drained_pl += tile.drained_pl;
+        blown_pl += tile.blown_pl;
+      }
     }
   }
 
@@ -76,7 +84,8 @@ class LoneFilm {
                            [](int64_t sum, int32_t volume) { return sum + std::max(volume, 0); });
   }
 
-  bool breaks = false;  // thin film breaks up into beads
+  int64_t drained_pl = 0, blown_pl = 0;  // so far
+  bool breaks = false;                   // thin film breaks up into beads
 
  private:
   static glass::PaneMap infoOf(glm::ivec2 texels, double texel_m) {
