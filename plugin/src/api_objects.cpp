@@ -104,7 +104,9 @@ rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
     checkRange(info.opening_m, 0.0, kWidestOpening_m, "rg_pane_info.opening_m");
     checkRange(info.demister, 0.0, 1.0, "rg_pane_info.demister");
     pane.opening_m = info.opening_m;
+    checkRange(info.mirror, 0.0, 1.0, "rg_pane_info.mirror");
     pane.demister = info.demister;
+    pane.mirror = info.mirror;
     if (finiteVector(info.slide_direction, "rg_pane_info.slide_direction") != glm::dvec3(0.0))
       pane.slide_direction = unitVector(info.slide_direction, "rg_pane_info.slide_direction");
     if (finiteVector(info.sill, "rg_pane_info.sill") != glm::dvec3(0.0)) {

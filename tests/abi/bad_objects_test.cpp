@@ -160,6 +160,8 @@ TEST_F(BadObjects, panesThatAreNoPanes) {
   refused("a sill along the way", "spoilt", [](Pane& p) { p.info.sill[1] = 1.0; });
   refused("more than all of the demister", "rg_pane_info.demister", [](Pane& p) { p.info.demister = 1.5; });
   refused("a demister of no number", "rg_pane_info.demister", [](Pane& p) { p.info.demister = kNaN; });
+  refused("a mirror that shines", "rg_pane_info.mirror", [](Pane& p) { p.info.mirror = 1.1; });
+  refused("a mirror of no number", "rg_pane_info.mirror", [](Pane& p) { p.info.mirror = kNaN; });
   refused("a window open by no number", "opening_m", [](Pane& p) { p.info.opening_m = kNaN; });
   expectStructChecked<rg_pane_info>("rg_pane_info", *Pane(api).get(),
                                     {offsetof(rg_pane_info, advancing_deg),

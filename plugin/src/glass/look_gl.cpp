@@ -34,6 +34,7 @@ const std::array<std::string, 2> kInsideCoarse{"INSIDE", "COARSE"},
 const std::array<std::string, 3> kInsideCoarseEnvironment{"INSIDE", "COARSE", "ENVIRONMENT"};
 const std::array<std::string, 2> kLampsEnvironment{"LAMPS", "ENVIRONMENT"};
 const std::array<std::string, 1> kLamps{"LAMPS"};
+const std::array<std::string, 2> kMirrorEnvironment{"MIRROR", "ENVIRONMENT"};
 
 // What places drops and what draws them.
 struct DropPrograms {
@@ -64,11 +65,13 @@ struct FrameBlock {
   int32_t blade_count;
   float ridge_tan_contact;
   float bead_mm3_per_unit, bead_sine;
+  float mirror;
+  float unused[3];
   struct Blade {
     glm::vec4 middle_length, along_first, ahead;
   } blades[shared::kMaxGlassWipers];
 };
-static_assert(sizeof(FrameBlock) == 416 + 48 * shared::kMaxGlassWipers, "std140 lays it out so");
+static_assert(sizeof(FrameBlock) == 432 + 48 * shared::kMaxGlassWipers, "std140 lays it out so");
 
 glm::mat4 rotationOf(const glm::dmat4& m) { return glm::mat4(glm::dmat4(glm::dmat3(m))); }
 
@@ -130,6 +133,7 @@ struct GlassLook::Parts {
   void drawDrops(const LookPane& pane);
   void drawFog(const LookPane& pane);
   const DropPrograms& dropPrograms();
+  const gl::Program& outsideProgram(const LookPane& pane);
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
     return capture.cube() != 0 ? capture.cube() : light.environment_cube;
@@ -140,6 +144,7 @@ struct GlassLook::Parts {
   // For a film of few and of many pixels to a texel, each without and with an environment.
   std::array<std::array<gl::Program, 2>, 2> inside_programs;
   std::array<gl::Program, 2> outside_programs;  // without and with an environment, as drop_programs
+  std::array<std::optional<gl::Program>, 2> mirror_programs;  // likewise, made when a mirror is first wet
   gl::Program small_program;
   std::array<DropPrograms, 2> drop_programs;
   std::array<std::optional<DropPrograms>, 2> lamp_drop_programs;  // likewise, made when lamps first shine
@@ -194,6 +199,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.film_unit_m3 = pane.film_unit_m3;
   block.bead_mm3_per_unit =
       1e9f * pane.film_unit_m3 / static_cast<float>(capShape(static_cast<double>(pane.bead_contact_rad)));
+  block.mirror = pane.mirror;
   block.bead_sine = std::sin(std::min(pane.bead_contact_rad, glm::half_pi<float>()));
   block.ridge_tan_contact = std::tan(std::min(pane.ridge_contact_rad, kSteepestRidge_rad));
   for (const LookBlade& blade : pane.blades) {
@@ -284,9 +290,19 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   inside_programs[coarse][with_environment].use();
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   gl.CullFace(GL_BACK);
-  outside_programs[with_environment].use();
+  outsideProgram(pane).use();
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   gl.Disable(GL_CULL_FACE);
+}
+
+const gl::Program& GlassLook::Parts::outsideProgram(const LookPane& pane) {
+  if (pane.mirror <= 0.0f) return outside_programs[with_environment];
+  std::optional<gl::Program>& made = mirror_programs[with_environment];
+  if (!made) {
+    made.emplace(gl, std::initializer_list<std::string_view>{"glass/look_pane.vert", "glass/look_pane.frag"},
+                 std::span(kMirrorEnvironment).first(1 + with_environment));
+  }
+  return *made;
 }
 
 // Without lamps drops are drawn as if there were no such thing, to the bit and as fast.
@@ -347,6 +363,7 @@ void GlassLook::Parts::forget() {
     outside_programs[k].forget();
     drop_programs[k].forget();
     if (lamp_drop_programs[k]) lamp_drop_programs[k]->forget();
+    if (mirror_programs[k]) mirror_programs[k]->forget();
   }
   frame_block.forget();
   seen_drops.forget();
@@ -373,7 +390,8 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
   std::vector<SeenPane> drawn;  // since the picture was fetched
   for (const SeenPane& seen : seenPanes(panes, view)) {
     const LookPane& pane = *seen.pane;
-    if (!isWet(pane) && pane.fog.covered.empty() && !settings.dry_reflection) continue;
+    if (!isWet(pane) && pane.fog.covered.empty() && (!settings.dry_reflection || pane.mirror > 0.0f))
+      continue;
     const bool stale =
         std::any_of(drawn.begin(), drawn.end(), [&](const SeenPane& far) { return liesBehind(far, seen); });
     if (drawn.empty() || stale) {
