@@ -43,6 +43,20 @@ void dip(rg_lamp& lamp) {
   lamp.cos_outer = std::cos(kBeamHalf_rad);
 }
 
+rg_pane_info paneInfo(const rg_api& api, const PaneView& pane) {
+  rg_pane_info info;
+  api.default_pane_info(&info);
+  info.vehicle = kCarId;
+  info.name = pane.name.c_str();
+  info.positions_m = &pane.positions_m.data()->x;
+  info.uvs = &pane.uv.data()->x;
+  info.indices = pane.indices.data();
+  info.vertex_count = static_cast<uint32_t>(pane.positions_m.size());
+  info.index_count = static_cast<uint32_t>(pane.indices.size());
+  info.glass = static_cast<int32_t>(pane.glass);
+  return info;
+}
+
 // Those that light falling drops.
 std::vector<rg_lamp> lampsOf(const LightSummary& light) {
   std::vector<rg_lamp> lamps;
@@ -139,19 +153,15 @@ void RainPlugin::addTraffic(const CarView& car, size_t count) {
   }
 }
 
+void RainPlugin::addPane(const std::string& name, const rg_pane_info& info) {
+  panes_.push_back(name);
+  check(api_->set_pane(instance_, static_cast<uint32_t>(panes_.size()), &info), "set_pane");
+}
+
 void RainPlugin::addCar(const CarView& car) {
   for (const ShelterView& s : car.shelters) addVolume(++volumes_, kCarId, s);
   for (const PaneView& p : car.panes) {
-    rg_pane_info info;
-    api_->default_pane_info(&info);
-    info.vehicle = kCarId;
-    info.name = p.name.c_str();
-    info.positions_m = &p.positions_m.data()->x;
-    info.uvs = &p.uv.data()->x;
-    info.indices = p.indices.data();
-    info.vertex_count = static_cast<uint32_t>(p.positions_m.size());
-    info.index_count = static_cast<uint32_t>(p.indices.size());
-    info.glass = static_cast<int32_t>(p.glass);
+    rg_pane_info info = paneInfo(*api_, p);
     // What no wiper clears is looked through less: a quarter of the cells and drops.
     const bool wiped = std::ranges::any_of(car.wipers, [&](const WiperView& w) { return w.pane == p.name; });
     if (!wiped && car.panes.size() > 1) {
@@ -159,8 +169,14 @@ void RainPlugin::addCar(const CarView& car) {
       info.max_drops /= 4;
     }
     if (wiped) info.demister = 1.0;
-    panes_.push_back(p.name);
-    check(api_->set_pane(instance_, static_cast<uint32_t>(panes_.size()), &info), "set_pane");
+    addPane(p.name, info);
+  }
+  for (const MirrorView& m : car.mirrors) {
+    if (!m.wet) continue;
+    rg_pane_info info = paneInfo(*api_, m.face);
+    info.max_drops /= 4;
+    info.mirror = static_cast<double>(kCarMirror);
+    addPane(m.name, info);
   }
   for (size_t i = 0; i < car.wipers.size(); ++i) {
     const WiperView& w = car.wipers[i];

@@ -51,7 +51,7 @@ class RainPlugin {
   RainPlugin& operator=(const RainPlugin&) = delete;
 
   void attach(Context& context);
-  // The car's cabin, panes and wipers. Ids are index + 1.
+  // The car's cabin, panes, wet mirrors (panes after the others) and wipers. Ids are index + 1.
   void addCar(const CarView& car);
   // The cabins of so many other cars like it; moments tell where they are.
   void addTraffic(const CarView& car, size_t count);
@@ -87,6 +87,7 @@ class RainPlugin {
   void create(uint64_t seed);
   void check(rg_result result, const char* call);
   void addVolume(uint32_t id, uint32_t vehicle, const ShelterView& shelter);
+  void addPane(const std::string& name, const rg_pane_info& info);
   using DrawCall = rg_result (*)(rg_instance*, rg_draw*);
   // `lamps`: those that light the drops, or that are looked at through them (`on_glass`).
   void draw(DrawCall call, const char* name, int64_t time_ns, const rg_view& view, const Target& target,

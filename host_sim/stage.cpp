@@ -76,6 +76,7 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   if (road_scene_) road_ = roadView(*road_scene_);
   if (scenario.glass) {
     for (PaneView& pane : car_.panes) pane.glass = *scenario.glass;
+    for (MirrorView& mirror : car_.mirrors) mirror.face.glass = *scenario.glass;
   }
   if (!scenario.shelter) {
     car_.shelters.clear();
@@ -86,6 +87,9 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   if (car_scene_) {
     const SceneId car = renderer_->addScene(*car_scene_, SceneFrame::Car);
     car_instance_ = renderer_->addInstance(car);
+    for (const MirrorView& m : car_.mirrors) {
+      if (m.wet) renderer_->addMirror(*car_instance_, m.face.positions_m, m.face.indices, m.normal);
+    }
     for (size_t k = 0; k < scenario.traffic.size(); ++k) traffic_.push_back(renderer_->addTraffic(car));
     poses_ = car_scene_->restPoses();
   }
@@ -218,6 +222,7 @@ void Stage::draw(int64_t time_ns, const Target& target, uint32_t framebuffer, in
   else
     renderer_->drawWorld(eye.view, target, std::span(&*car_instance_, 1));
   if (inside) renderer_->drawParts(eye.view, target, *car_instance_, kBody | kWipers);
+  renderer_->drawMirrors(eye.view, target);
   const double exposure =
       scenario_.white_cd_m2 ? 1000.0 / *scenario_.white_cd_m2 : exposureFor(simulation_->adaptedLuminance());
   renderer_->smooth(target, exposure);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "render/car_mirrors.h"
 #include "render/draw_list.h"
 #include "render/environment.h"
 #include "render/gpu_scene.h"
@@ -49,10 +50,17 @@ struct Renderer::Self {
         compressing(gl, {"full.vert"}, {"smooth.frag"}, {"COMPRESS"}),
         smoothing(gl, {"full.vert"}, {"smooth.frag"}),
         tone(gl, {"full.vert"}, {"tone.frag"}),
-        glare(gl, {"frame.glsl", "glare.vert"}, {"glare.frag"}) {
+        glare(gl, {"frame.glsl", "glare.vert"}, {"glare.frag"}),
+        reflecting(gl, {"mirror.vert"}, {"mirror.frag"}) {
     gl.CreateVertexArrays(1, &no_vertices);
   }
-  ~Self() { gl.DeleteVertexArrays(1, &no_vertices); }
+  ~Self() {
+    gl.DeleteVertexArrays(1, &no_vertices);
+    for (const CarMirror& mirror : mirrors) {
+      gl.DeleteBuffers(1, &mirror.corners);
+      gl.DeleteVertexArrays(1, &mirror.layout);
+    }
+  }
   Self(const Self&) = delete;
   Self& operator=(const Self&) = delete;
 
@@ -60,8 +68,16 @@ struct Renderer::Self {
   Environment environment;
   Shadow shadow;
   Painter painter;
-  Program background, picture_background, compressing, smoothing, tone, glare;
+  Program background, picture_background, compressing, smoothing, tone, glare, reflecting;
   GLuint no_vertices = 0;
+  struct CarMirror {
+    InstanceId car;
+    std::vector<glm::vec3> corners_m;  ///< of its triangles, host frame
+    glm::vec3 normal;
+    GLuint corners = 0, layout = 0;
+    std::unique_ptr<MirrorPicture> shown;
+  };
+  std::vector<CarMirror> mirrors;
   std::unique_ptr<MirrorPicture> mirror_picture;
   std::unique_ptr<ColourPicture> unsmoothed;
   const Instance* nearest_car = nullptr;  ///< its wheels stand on the ground that mirrors, and it shades it
@@ -82,6 +98,7 @@ struct Renderer::Self {
   FrameBlock frameFor(const View& view, glm::ivec2 size_px, glm::dvec3 eye_m) const;
   void findCar(glm::dvec3 eye_m);
   bool paintMirror(const View& view, glm::ivec2 size_px, const What& what);
+  Painted paintCarMirror(CarMirror& mirror, const View& view, const Target& target);
   void begin(GLuint framebuffer, glm::ivec2 size_px);
   Painted paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size,
                     bool mirror = false);
@@ -266,6 +283,57 @@ bool Renderer::Self::paintMirror(const View& view, glm::ivec2 size_px, const Wha
   return true;
 }
 
+/// The world as a car's mirror shows it; its own flank hardly comes into it from where its driver sits, and
+/// costs more than all the rest.
+Painted Renderer::Self::paintCarMirror(CarMirror& mirror, const View& view, const Target& target) {
+  constexpr float kLeastSize = 0.004F;
+  const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
+  const Instance& car = instances.at(mirror.car);
+  glm::dmat4 rel_from_host = car.worldFromHost();
+  rel_from_host[3] -= glm::dvec4(eye_m, 0.0);
+  std::vector<glm::vec3> corners_rel;
+  for (const glm::vec3& p : mirror.corners_m)
+    corners_rel.emplace_back(rel_from_host * glm::dvec4(glm::dvec3(p), 1.0));
+  const glm::vec3 normal(glm::dmat3(rel_from_host) * glm::dvec3(mirror.normal));
+  const glm::mat4 clip_from_rel = turnedOnly(view);
+  const auto seen = seenMirror(corners_rel, normal, clip_from_rel, target.sizePx());
+  if (!seen) return {};
+  if (!mirror.shown || glm::any(glm::lessThan(mirror.shown->sizePx(), seen->size_px)))
+    mirror.shown = std::make_unique<MirrorPicture>(gl, seen->size_px);
+
+  FrameBlock frame = frameFor(view, seen->size_px, eye_m);
+  frame.clip_from_rel = clipOfMirrored(*seen, clip_from_rel, target.sizePx());
+  begin(mirror.shown->framebuffer(), seen->size_px);
+  const float far = 0.0F;
+  gl.ClearNamedFramebufferfv(mirror.shown->framebuffer(), GL_DEPTH, 0, &far);
+  gl.FrontFace(GL_CW);
+  DrawList list(eye_m, frame.clip_from_rel, kLeastSize);
+  for (const auto& [instance, parts] : world()) list.add(*instance, parts);
+  list.sort();
+  painter.setFrame(frame, eye_m, lamps, grids, {environment.mirrored(), shadow.texture(), 0});
+  const Painted painted = painter.paint(list);
+  gl.FrontFace(GL_CCW);
+  SeenMirror far_off = *seen;
+  far_off.offset_m = 0.0F;  // as directions are mirrored
+  paintSky(clipOfMirrored(far_off, clip_from_rel, target.sizePx()));
+
+  begin(target.framebuffer(), target.sizePx());
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_GREATER);
+  gl.DepthMask(GL_FALSE);  // it lies a little before its glass, which its drops lie on
+  gl.Disable(GL_CULL_FACE);
+  gl.BindTextureUnit(0, mirror.shown->texture());
+  reflecting.set("u_clip_from_host", clip_from_rel * glm::mat4(rel_from_host));
+  reflecting.set("u_corner_px", glm::vec2(seen->corner_px));
+  reflecting.set("u_texel", 1.0F / glm::vec2(mirror.shown->sizePx()));
+  reflecting.set("u_reflects", kCarMirror);
+  reflecting.use();
+  gl.BindVertexArray(mirror.layout);
+  gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mirror.corners_m.size()));
+  gl.DepthMask(GL_TRUE);
+  return painted;
+}
+
 void Renderer::Self::paintSky(const glm::mat4& clip_from_rel) {
   const Program& program = environment.isPicture() ? picture_background : background;
   program.use();
@@ -349,6 +417,23 @@ void Renderer::place(InstanceId instance, const Placement& placement) {
   self_->instances.at(instance).place(placement);
 }
 
+void Renderer::addMirror(InstanceId car, std::span<const glm::vec3> positions_m,
+                         std::span<const std::uint32_t> indices, glm::vec3 normal) {
+  const GladGLContext& gl = self_->gl;
+  Self::CarMirror& mirror = self_->mirrors.emplace_back();
+  mirror.car = car;
+  mirror.normal = normal;
+  for (const std::uint32_t i : indices) mirror.corners_m.push_back(positions_m[i]);
+  gl.CreateBuffers(1, &mirror.corners);
+  gl.NamedBufferStorage(mirror.corners, static_cast<GLsizeiptr>(mirror.corners_m.size() * sizeof(glm::vec3)),
+                        mirror.corners_m.data(), 0);
+  gl.CreateVertexArrays(1, &mirror.layout);
+  gl.EnableVertexArrayAttrib(mirror.layout, 0);
+  gl.VertexArrayAttribFormat(mirror.layout, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  gl.VertexArrayAttribBinding(mirror.layout, 0, 0);
+  gl.VertexArrayVertexBuffer(mirror.layout, 0, mirror.corners, 0, sizeof(glm::vec3));
+}
+
 void Renderer::setEnvironment(std::span<const float> rgb, int width, int height) {
   self_->environment.setPicture(rgb, width, height);
 }
@@ -404,6 +489,18 @@ void Renderer::drawParts(const View& view, const Target& target, InstanceId inst
   self.begin(target.framebuffer(), target.sizePx());
   self.timed(parts & kBody ? "cabin" : "wipers", [&] {
     return self.paintFrom(view, target.sizePx(), {{&self.instances.at(instance), parts}}, 0.0F);
+  });
+}
+
+void Renderer::drawMirrors(const View& view, const Target& target) {
+  self_->timed("car_mirrors", [&] {
+    Painted all;
+    for (Self::CarMirror& mirror : self_->mirrors) {
+      const Painted painted = self_->paintCarMirror(mirror, view, target);
+      all.triangles += painted.triangles;
+      all.draws += painted.draws;
+    }
+    return all;
   });
 }
 

@@ -4,6 +4,7 @@
 //   renderer.beginFrame(sky)                       sky, shadows, lamps: once for all views of a moment
 //   renderer.drawWorld(view, target, whole)        sky, roads, and cars that are seen from outside
 //   renderer.drawParts(view, target, car, kBody | kWipers)   the cabin around the eye
+//   renderer.drawMirrors(view, target)             what its mirrors show
 //   renderer.smooth(target, exposure)              edges of all that is solid
 //     rain, panes
 //   renderer.toneMap(target, framebuffer, exposure)
@@ -83,6 +84,9 @@ struct Glare {
   bool mesh_glows = false;  ///< a disc is drawn only where its mesh is too small to be drawn well
 };
 
+/// Share of the light that a car's mirrors reflect (silver behind glass).
+inline constexpr float kCarMirror = 0.85F;
+
 /// What light there is, as rg_lighting wants it.
 struct LightSummary {
   glm::vec3 sky_radiance{0.0F};
@@ -117,6 +121,9 @@ class Renderer {
   /// A car among others, seen in every picture as the road is, by the glass too.
   InstanceId addTraffic(SceneId scene);
   void place(InstanceId instance, const Placement& placement);
+  /// A flat mirror of a car's: triangles in its host frame, `normal` towards those who look into it.
+  void addMirror(InstanceId car, std::span<const glm::vec3> positions_m,
+                 std::span<const std::uint32_t> indices, glm::vec3 normal);
 
   /// A picture of all around at infinity, instead of the computed sky: `rgb` is latitude-longitude, row 0 up,
   /// linear, in this file's unit; the world's +x is in its middle column, +y left of it.
@@ -130,6 +137,8 @@ class Renderer {
   void drawWorld(const View& view, const Target& target, std::span<const InstanceId> whole = {});
   /// Draws parts (Parts, or'ed) of an instance into what is there.
   void drawParts(const View& view, const Target& target, InstanceId instance, unsigned parts);
+  /// What a car's mirrors that are in the picture show, drawn on them.
+  void drawMirrors(const View& view, const Target& target);
   /// Smooths the edges in the target's colour, as they will be seen at `exposure`: before rain and panes,
   /// which are drawn smooth.
   void smooth(const Target& target, double exposure);

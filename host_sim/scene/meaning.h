@@ -70,6 +70,7 @@ struct SteeringWheelMeaning {
 
 struct MirrorMeaning {
   std::string name;
+  bool wet = false;  ///< rain falls on it
 };
 
 /// monostate: an ordinary node.

@@ -153,7 +153,12 @@ void readParts(const Scene& scene, const glm::mat4& frame, CarView& car) {
     const glm::mat4 matrix = frame * node.scene_from_node;
     const Mesh& mesh = meshOf(scene, node);
     const glm::vec3 centre_m(matrix * glm::vec4(meshCentre(mesh), 1.0F));
-    car.mirrors.push_back({mirror.name, index, centre_m, meanNormal(mesh, matrix)});
+    PaneView face;
+    face.name = mirror.name;
+    face.node = index;
+    for (const Primitive& p : mesh.primitives) appendPrimitive(face, p, matrix);
+    car.mirrors.push_back(
+        {mirror.name, index, centre_m, meanNormal(mesh, matrix), std::move(face), mirror.wet});
   });
 }
 

@@ -97,6 +97,8 @@ struct MirrorView {
   int node = -1;
   glm::vec3 centre_m{0.0F};
   glm::vec3 normal{-1.0F, 0.0F, 0.0F};  ///< unit, the mean of its faces
+  PaneView face;
+  bool wet = false;  ///< rain falls on it
 };
 
 struct CarView {

@@ -54,7 +54,7 @@ def correct_booleans(path):
     document = json.loads(data[20:20 + size])
     for node in document["nodes"]:
         said = node.get("extras", {}).get("rainglass", {})
-        for key in ("steers", "inside"):
+        for key in ("steers", "inside", "wet"):
             if key in said:
                 said[key] = bool(said[key])
     text = json.dumps(document, separators=(",", ":")).encode()

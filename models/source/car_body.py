@@ -457,10 +457,10 @@ def door_mirrors(material_of):
         at = (c + [0.055 - 0.087, 0, 0]) * flip
         face = unit(unit(shape.EYE - at) + unit([-1.0, 0.06 * sign, -0.02]))
         face = unit(np.array([face[0], face[1] * 0.35, face[2] * 0.3]))  # the housing hides the rest of the turn
-        mirror_face(material_of, "mirror_" + hand, at, face, [(1.05 * 0.080 * cy, 0.66 * 0.078 * cz) for cy, cz in zip(*squircle)])
+        mirror_face(material_of, "mirror_" + hand, at, face, [(1.05 * 0.080 * cy, 0.66 * 0.078 * cz) for cy, cz in zip(*squircle)], wet=True)
 
 
-def mirror_face(material_of, name, at, normal, outline):
+def mirror_face(material_of, name, at, normal, outline, **extras):
     """A flat mirror; uv 0..1 as the driver sees it."""
     right = unit(np.cross([0, 0, 1.0], normal))   # seen from the front of the mirror
     up = np.cross(normal, right)
@@ -471,4 +471,4 @@ def mirror_face(material_of, name, at, normal, outline):
     uv = np.concatenate([[[0.5, 0.5]], 0.5 + 0.5 * o / half])
     n = len(o)
     part = Part(name).add(p, [(0, 1 + k, 1 + (k + 1) % n) for k in range(n)], "mirror", np.tile(normal, (n + 1, 1)), uv)
-    part.build(material_of, rainglass={"type": "mirror", "name": name})
+    part.build(material_of, rainglass={"type": "mirror", "name": name, **extras})

@@ -21,15 +21,14 @@ glm::dvec3 unitVector(const double v[3], const char* name) {
 }
 
 template <typename Vector>
-std::vector<Vector> readFloats(const float* data, uint32_t count, size_t stride, const char* name) {
+std::vector<Vector> readFloats(const float* data, uint32_t count, size_t stride, const std::string& name) {
   const size_t step = stride == 0 ? sizeof(Vector) : stride;
-  checkArray(data, count, step, sizeof(Vector), kMostVertices, name);
+  checkArray(data, count, step, sizeof(Vector), kMostVertices, name.c_str());
   std::vector<Vector> out(count);
   for (uint32_t i = 0; i < count; ++i) {
     std::memcpy(&out[i], element(data, step, i), sizeof(Vector));
     for (glm::length_t k = 0; k < Vector::length(); ++k) {
-      if (!std::isfinite(out[i][k]))
-        refuse(std::string(name) + "[" + std::to_string(i) + "] is not a number");
+      if (!std::isfinite(out[i][k])) refuse(name + "[" + std::to_string(i) + "] is not a number");
     }
   }
   return out;
@@ -86,14 +85,16 @@ rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
     checkId(info.vehicle, "rg_pane_info.vehicle");
     glass::PaneInfo pane;
     pane.name = readName(info.name, "rg_pane_info.name");
+    if (pane.name.empty()) pane.name = std::to_string(id);
+    const std::string of_pane = "pane '" + pane.name + "': rg_pane_info.";
     if (info.vertex_count == 0 || info.index_count == 0)
-      refuse("pane \"" + pane.name + "\" has no triangles");
+      refuse(of_pane + (info.vertex_count == 0 ? "vertex_count" : "index_count") + " is 0");
     const auto positions = readFloats<glm::vec3>(info.positions_m, info.vertex_count, info.position_stride,
-                                                 "rg_pane_info.positions_m");
-    const auto uvs = readFloats<glm::vec2>(info.uvs, info.vertex_count, info.uv_stride, "rg_pane_info.uvs");
+                                                 of_pane + "positions_m");
+    const auto uvs = readFloats<glm::vec2>(info.uvs, info.vertex_count, info.uv_stride, of_pane + "uvs");
     checkArray(info.indices, info.index_count, sizeof(uint32_t), sizeof(uint32_t),
-               6 * uint64_t{kMostVertices}, "rg_pane_info.indices");
-    if (info.index_count % 3 != 0) refuse("pane \"" + pane.name + "\": index_count is no multiple of 3");
+               6 * uint64_t{kMostVertices}, (of_pane + "indices").c_str());
+    if (info.index_count % 3 != 0) refuse(of_pane + "index_count is no multiple of 3");
     if (info.glass < RG_GLASS_UNCOATED || info.glass > RG_GLASS_NEW_COATING)
       refuse("rg_pane_info.glass is no rg_glass");
     checkRange(info.advancing_deg, 0.0, 175.0, "rg_pane_info.advancing_deg");
@@ -103,7 +104,9 @@ rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
     checkRange(info.opening_m, 0.0, kWidestOpening_m, "rg_pane_info.opening_m");
     checkRange(info.demister, 0.0, 1.0, "rg_pane_info.demister");
     pane.opening_m = info.opening_m;
+    checkRange(info.mirror, 0.0, 1.0, "rg_pane_info.mirror");
     pane.demister = info.demister;
+    pane.mirror = info.mirror;
     if (finiteVector(info.slide_direction, "rg_pane_info.slide_direction") != glm::dvec3(0.0))
       pane.slide_direction = unitVector(info.slide_direction, "rg_pane_info.slide_direction");
     if (finiteVector(info.sill, "rg_pane_info.sill") != glm::dvec3(0.0)) {

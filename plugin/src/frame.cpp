@@ -84,6 +84,7 @@ void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::Pan
   object.sim->setAirflow(object.airflow);
   object.fog = std::make_shared<glass::Fog>(object.sim->map());
   object.demister = info.demister;
+  object.mirror = info.mirror;
   object.opening_m = info.opening_m;
   if (gl_) object.sim->attachFilm();
   std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });  // the glass is another

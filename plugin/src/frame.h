@@ -35,6 +35,7 @@ struct PaneObject {
   std::shared_ptr<glass::PaneSim> sim;
   std::shared_ptr<glass::Fog> fog;
   double demister = 0.0;
+  double mirror = 0.0;
   double opening_m = 0.0;  // until the timeline says otherwise
   std::array<float, glass::kRegions> wet_share{};
   glass::Airflow airflow;

@@ -241,6 +241,7 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
       const int64_t behind = std::max<int64_t>(0, object->second.tick - drawn.drop_tick);
       const int64_t world_tick = next_tick_ - 1 - behind;
       seen.push_back(lookPane(drawn, vehicle->pose, request.time_ns, tickTimeNs(world_tick)));
+      seen.back().mirror = static_cast<float>(object->second.mirror);
       if (const glass::Fog& fog = *object->second.fog; !fog.empty())
         seen.back().fog = {fog.covered(), glass::Fog::kCells};
     }

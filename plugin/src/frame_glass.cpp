@@ -135,10 +135,11 @@ void Frame::tickGlass(const Tick& tick) {
   std::erase_if(washes_, [](const WashObject& wash) { return wash.given_pl == wash.volume_pl; });
 }
 
-// Vapour and warmth change slowly: ten steps a second. A cabin without vapour costs nothing.
+// Vapour and warmth change slowly: ten steps a second. A cabin without vapour costs nothing, and a mirror has
+// none behind it.
 void Frame::tickFog(PaneObject& p, const glass::PaneTick& tick) const {
   constexpr int64_t kTicks = 12;
-  const bool wanted = settings_.fog_cabin_humidity > 0.0 || !p.fog->empty();
+  const bool wanted = p.mirror == 0.0 && (settings_.fog_cabin_humidity > 0.0 || !p.fog->empty());
   if (!wanted || tick.index % kTicks != 0) return;
   const glass::FogAir air{tick.temperature_c,           tick.humidity,
                           glm::length(tick.air_mps),    settings_.fog_cabin_temperature_c,

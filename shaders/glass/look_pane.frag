@@ -73,6 +73,21 @@ vec3 throughBead(SeenBead bead, vec3 within, vec3 normal, vec3 cap) {
   return surroundingsOfGlass(world_from_vehicle * direction, world_from_vehicle * normal, spread);
 }
 
+#ifdef MIRROR
+// Through the water, off the silver and out through the water again. Little bent, the picture shows it; further off it lies on the housing there,
+// and the surroundings have to do.
+vec3 mirroredThrough(vec3 view, vec3 normal, vec3 surface, float spread_rad, vec2 at) {
+  const float kSure_rad = 0.01, kLost_rad = 0.03;
+  vec3 within = refract(view, surface, 1.0 / kWaterIndex);
+  vec3 leaving = refract(reflect(within, normal), -surface, kWaterIndex);
+  if (dot(leaving, leaving) < 0.5) leaving = reflect(view, normal);
+  vec3 as_if_through = reflect(leaving, normal);
+  vec2 shift = inPicture(mat3(frame.eye_from_vehicle) * as_if_through) - inPicture(mat3(frame.eye_from_vehicle) * view);
+  vec3 far = frame.mirror * surroundings(mat3(frame.world_from_vehicle) * leaving, spread_rad);
+  return mix(behind(at + shift, spanned_px(at + shift)), far, smoothstep(kSure_rad, kLost_rad, length(as_if_through - view)));
+}
+#endif
+
 void main() {
 #ifdef COARSE  // many pixels to a texel
   vec4 water = textureBicubic(film, i.uv);
@@ -121,9 +136,18 @@ void main() {
   light = mix(light, frame.cabin_share * blurred, more / (1.0 - flat_reflectance));
   light = frame.brightness * mix(light, throughBead(bead, within, normal, cap), bead.cover * far);
 #else
+#ifdef MIRROR
+  if (!wet) discard;
+#else
   if (!wet && frame.dry_reflection == 0u) discard;
+#endif
   surface = normalize(mix(surface, cap, bead.cover));
   slope = mix(slope, normal - cap, bead.cover);
+#ifdef MIRROR
+  float spread = 0.02 + 4.0 * length(fwidth(slope));
+  vec3 light = frame.brightness * mix(mirroredThrough(view, normal, surface, spread, at), throughDroplets(at), bead.hazy);
+  float reflectance = fresnel(max(-dot(view, surface), 0.02), kWaterIndex);
+#else
   vec3 within = refract(view, surface, 1.0 / kWaterIndex);
   vec3 transmitted = refract(within, normal, kWaterIndex);
   if (dot(transmitted, transmitted) < 0.5) transmitted = view;
@@ -132,6 +156,7 @@ void main() {
   float lever = kBehindGlass_m / (kBehindGlass_m + to_glass_m);
   vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - inPicture(eye_from_vehicle * view));
   vec3 light = frame.brightness * mix(behind(at + shift, spanned_px(at + shift)), throughDroplets(at + shift), bead.hazy);
+#endif
   vec3 reflected = mat3(frame.world_from_vehicle) * reflect(view, surface);
   light = mix(light, surroundings(reflected, 0.02 + 4.0 * length(fwidth(slope))), reflectance);
 #endif

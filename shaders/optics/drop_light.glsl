@@ -33,7 +33,9 @@ vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread, vec2 in
     InnerHit hit = nextFace(cap, p, d);
     float cosine = dot(d, hit.normal);
     float curvature = hit.normal.z > -0.999 ? 1.0 / cap.radius : 0.0;
-    float reflected = fresnel(cosine, 1.0 / kWaterIndex);
+    // A mirror's silver lies so close below the drop as if at its base: nothing leaves there.
+    bool silvered = frame.mirror > 0.0 && hit.normal.z < -0.999;
+    float reflected = silvered ? 1.0 : fresnel(cosine, 1.0 / kWaterIndex);
     float leaving = staying * (1.0 - reflected);
     float across = footprint + spread * hit.path;  // of the ray bundle at this face
     in_plane.x += in_plane.y * hit.path;
@@ -45,7 +47,7 @@ vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread, vec2 in
       float wide = (kWaterIndex * cosine * in_plane.y - (kWaterIndex * cosine - out_cosine) * turned) / max(out_cosine, 0.1);
       sum += leaving * arriving(out_direction, abs(kWaterIndex * spread - bend), wide);
     }
-    staying *= reflected;
+    staying *= silvered ? frame.mirror : reflected;
     if (staying < 0.01) break;
     spread = spread - 2.0 * curvature * across * cosine;
     in_plane.y -= 2.0 * turned;

@@ -31,7 +31,7 @@ layout(std140, binding = 0) uniform Frame {
   uint depth_seen;          // 0: the target's depth is not given; 1: it is -1 .. 1; 2: 0 .. 1
   uint internal_reflections;
   uint dry_reflection;
-  uint unused;
+  float mirror;             // share of the light that the glass's silvered inner side reflects; 0: it is looked through
   float film_unit_m3;
   int blade_count;          // that push a ridge
   float ridge_tan_contact;  // tangent of the angle in which its foot meets the glass

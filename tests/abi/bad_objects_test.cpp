@@ -106,9 +106,13 @@ TEST_F(BadObjects, panesThatAreNoPanes) {
         what, [&] { return api.set_pane(scene.instance, kPane, pane.get()); }, code, field);
   };
   refused("vehicle 0", "vehicle", [](Pane& p) { p.info.vehicle = 0; });
-  refused("no uvs", "uvs", [](Pane& p) { p.uvs.clear(); });
-  refused("no positions", "positions_m", [](Pane& p) { p.positions.clear(); });
-  refused("no indices", "indices", [](Pane& p) { p.indices.clear(); });
+  refused("no uvs", "'spoilt': rg_pane_info.uvs", [](Pane& p) { p.uvs.clear(); });
+  refused("no uvs of a pane without a name", "'1': rg_pane_info.uvs", [](Pane& p) {
+    p.uvs.clear();
+    p.info.name = nullptr;
+  });
+  refused("no positions", "'spoilt': rg_pane_info.positions_m", [](Pane& p) { p.positions.clear(); });
+  refused("no indices", "'spoilt': rg_pane_info.indices", [](Pane& p) { p.indices.clear(); });
   refused("no triangles", "spoilt", [](Pane& p) { p.info.index_count = 0; });
   refused("no vertices", "spoilt", [](Pane& p) { p.info.vertex_count = 0; });
   refused("four indices", "index_count", [](Pane& p) { p.info.index_count = 4; });
@@ -120,7 +124,11 @@ TEST_F(BadObjects, panesThatAreNoPanes) {
           [](Pane& p) { p.positions[4] = static_cast<float>(kNaN); });
   refused("a uv that is no number", "uvs[3]", [](Pane& p) { p.uvs[7] = static_cast<float>(kInfinity); });
   refused("no area", "spoilt", [](Pane& p) { p.positions.assign(12, 1.0f); });
-  refused("uvs without area", "uvs", [](Pane& p) { p.uvs.assign(8, 0.5f); });
+  refused("a triangle without area", "'spoilt': triangle 1 has no area",
+          [](Pane& p) { p.indices = {0, 1, 2, 0, 2, 2}; });
+  refused("uvs without area", "'spoilt': its uvs", [](Pane& p) { p.uvs.assign(8, 0.5f); });
+  refused("a triangle without area in uv", "'spoilt': triangle 1 has no area in uv",
+          [](Pane& p) { p.uvs[6] = p.uvs[7] = 0.5f; });
   refused("overlapping uvs", "spoilt", [](Pane& p) {
     p.positions.insert(p.positions.end(), {2, 0.2f, 1, 2, -0.2f, 1, 2, -0.2f, 1.4f});
     p.uvs.insert(p.uvs.end(), {0, 0, 1, 0, 1, 1});
@@ -152,6 +160,8 @@ TEST_F(BadObjects, panesThatAreNoPanes) {
   refused("a sill along the way", "spoilt", [](Pane& p) { p.info.sill[1] = 1.0; });
   refused("more than all of the demister", "rg_pane_info.demister", [](Pane& p) { p.info.demister = 1.5; });
   refused("a demister of no number", "rg_pane_info.demister", [](Pane& p) { p.info.demister = kNaN; });
+  refused("a mirror that shines", "rg_pane_info.mirror", [](Pane& p) { p.info.mirror = 1.1; });
+  refused("a mirror of no number", "rg_pane_info.mirror", [](Pane& p) { p.info.mirror = kNaN; });
   refused("a window open by no number", "opening_m", [](Pane& p) { p.info.opening_m = kNaN; });
   expectStructChecked<rg_pane_info>("rg_pane_info", *Pane(api).get(),
                                     {offsetof(rg_pane_info, advancing_deg),

@@ -63,6 +63,37 @@ TEST(PaneMap, normalsPointOutOnBothHandsOfTheChart) {
   }
 }
 
+// A mesh's triangles each with vertices of its own, so that uvs can be cut anywhere.
+Mesh inTriangles(const Mesh& mesh) {
+  Mesh out;
+  for (const uint32_t i : mesh.indices) {
+    out.indices.push_back(static_cast<uint32_t>(out.indices.size()));
+    out.positions.push_back(mesh.positions[i]);
+    out.uvs.push_back(mesh.uvs[i]);
+  }
+  return out;
+}
+
+// Laying flat anew hides no mistake: islands that overlap are one, and so is glass that goes round a corner.
+TEST(PaneMap, refusesPiecesThatOverlapOrCannotBeLaidFlat) {
+  const Mesh good = inTriangles(windscreen());
+  EXPECT_NO_THROW(glass::PaneMap(paneInfo(good)));
+  Mesh mesh = good;
+  const size_t half = mesh.uvs.size() / 2;
+  for (size_t i = 0; i < half; ++i) mesh.uvs[i].y += 0.25f;  // the lower over a part of the upper
+  expectRefused(mesh, "uvs overlap at");
+  for (size_t i = 0; i < half; ++i) mesh.uvs[i].y -= 1.25f;  // and away from it
+  EXPECT_NO_THROW(glass::PaneMap(paneInfo(mesh)));
+  Mesh wound = mesh;  // about a drum, through 3/4 of a turn
+  for (glm::vec3& p : wound.positions) {
+    const float turn = p.y / 1.5f * static_cast<float>(rad(270));
+    p = {0.3f * std::cos(turn), 0.3f * std::sin(turn), p.z};
+  }
+  expectRefused(wound, "too curved to be laid flat");
+  for (size_t i = 0; i < half; ++i) wound.uvs[i].y += 1.0f;  // in one even piece it needs not be
+  EXPECT_NO_THROW(glass::PaneMap(paneInfo(wound)));
+}
+
 TEST(PaneMap, refusesBrokenMeshesByName) {
   const Mesh good = windscreen();
   Mesh mesh = good;
@@ -89,6 +120,9 @@ TEST(PaneMap, refusesBrokenMeshesByName) {
   mesh = good;
   mesh.uvs[3].y = std::numeric_limits<float>::infinity();
   expectRefused(mesh, "not finite");
+  mesh = good;
+  mesh.uvs[40] = mesh.uvs[41] = mesh.uvs[42];
+  expectRefused(mesh, "has no area in uv");
   mesh = good;
   for (glm::vec2& uv : mesh.uvs) uv.x = std::abs(uv.x - 0.5f);  // folded in the middle
   expectRefused(mesh, "overlap");

@@ -153,13 +153,13 @@ TEST_F(SlidingFilm, theSealStripsWhatGoesDown) {
   const glass::PaneTick still = opened(weather(0.0), 0.0);
   run.run(still, 0.5);
   const glass::PaneStats before = run.stats();
-  ASSERT_GT(behindSill(run, 0.15).film_pl, 0) << "there is nothing to strip";
+  ASSERT_GT(behindSill(run, 0.2).film_pl, 0) << "there is nothing to strip";
 
   // At once: more texels than a step strips.
-  run.run(opened(still, 0.15), 0.5);
+  run.run(opened(still, 0.2), 0.5);
   const glass::PaneStats down = run.stats();
-  const Hidden behind = behindSill(run, 0.15);
-  EXPECT_GT(behind.texels, 1500u);
+  const Hidden behind = behindSill(run, 0.2);
+  EXPECT_GT(behind.texels, 2048u);
   EXPECT_EQ(behind.off, behind.texels);
   EXPECT_EQ(down.caught_pl, before.caught_pl);
   EXPECT_EQ(down.caught_pl, sumOf(down));
@@ -170,13 +170,13 @@ TEST_F(SlidingFilm, theSealStripsWhatGoesDown) {
   const glass::PaneStats up = run.stats();
   EXPECT_EQ(up.caught_pl, sumOf(up));
   constexpr double kRunsDown_m = 0.08;  // as far as water from above may come in that time
-  const Hidden back = behindSill(run, 0.15, kRunsDown_m);
+  const Hidden back = behindSill(run, 0.2, kRunsDown_m);
   EXPECT_GT(back.texels, 500u);
   EXPECT_EQ(back.off, 0u);
   EXPECT_EQ(back.film_pl, 0);
   for (const auto& drop : run.sim->snapshot()->drops) {
     const auto place = run.sim->map().vehicleFromGrid(glm::dvec2(drop.position_m));
-    EXPECT_TRUE(place && run.sim->slide().way_m(*place) > 0.15 - kRunsDown_m);
+    EXPECT_TRUE(place && run.sim->slide().way_m(*place) > 0.2 - kRunsDown_m);
   }
 }
 

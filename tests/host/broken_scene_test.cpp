@@ -346,6 +346,16 @@ const std::vector<Break> kBreaks = {
      "node 8 \"wheel_fl\": extras.rainglass.radius_m is 0"},
     {"mirrorWithoutMesh", [](Gltf& g) { node(g, 10).erase("mesh"); },
      "node 10 \"mirror\": extras.rainglass: a mirror needs a mesh"},
+    {"wetMirrorWithoutUv",
+     [](Gltf& g) {
+       meaning(g, 10)["wet"] = true;
+       node(g, 3).erase("extras");
+       node(g, 1).erase("extras");
+       primitive(g, 0)["attributes"].erase("TEXCOORD_0");
+     },
+     "node 10 \"mirror\": extras.rainglass: a mirror that is wet needs TEXCOORD_0"},
+    {"wetIsText", [](Gltf& g) { meaning(g, 10)["wet"] = "yes"; },
+     "extras.rainglass.wet is \"yes\", must be true or false"},
 };
 
 void PrintTo(const Break& b, std::ostream* out) { *out << b.name; }

@@ -64,6 +64,15 @@ TEST(Models, driversEyeIsInTheDryCabin) {
               glm::all(glm::lessThan(car.eye.position_m, high)));
 }
 
+TEST(Models, rainFallsOnTheMirrorsOutside) {
+  const host::CarView car = host::carView(model("car.glb"));
+  ASSERT_FALSE(car.shelters.empty());
+  const float side_m = highest(car.shelters[0].points_m).y;
+  EXPECT_EQ(car.mirrors.size(), 3U);
+  for (const host::MirrorView& mirror : car.mirrors)
+    EXPECT_EQ(mirror.wet, std::abs(mirror.centre_m.y) > side_m) << mirror.name;
+}
+
 TEST(Models, lensStandsBeforeItsCameraAndDry) {
   const host::CarView car = host::carView(model("car.glb"));
   const auto lens =

@@ -112,6 +112,12 @@ TEST(CarView, eyeLampsWheelsAndMirrorAreInTheVehicleFrame) {
   ASSERT_EQ(view.mirrors.size(), 1U);
   expectNear(view.mirrors[0].normal, {-1, 0, 0});  // turned half round: looks back
   expectNear(view.mirrors[0].centre_m, {0, 0, 2});
+  EXPECT_FALSE(view.mirrors[0].wet);
+  const host::PaneView& face = view.mirrors[0].face;
+  EXPECT_EQ(face.uv.size(), face.positions_m.size());
+  ASSERT_GE(face.indices.size(), 3U);
+  const auto p = [&](std::size_t k) { return face.positions_m[face.indices[k]]; };
+  expectNear(glm::normalize(glm::cross(p(1) - p(0), p(2) - p(0))), view.mirrors[0].normal);
 }
 
 TEST(CarView, camerasOfTheCarsOwnAreInTheVehicleFrame) {

@@ -1,6 +1,7 @@
 // The renderer on a scene made here: what it must keep to whatever the models are.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -105,6 +106,37 @@ TEST_F(Drawn, isTheSameAThousandKilometresAway) {
   for (std::size_t i = 0; i < here.size(); ++i)
     worst = std::max(worst, std::abs(int{here[i]} - int{there[i]}));
   EXPECT_LE(worst, 1);  // the eye's own position is rounded to 0.1 nm there; one grey level of rounding
+}
+
+// A mirror 3 m ahead, facing the eye: on the left it shows the green box that stands behind the eye on the
+// left, and nothing of the red one that stands behind the mirror.
+TEST_F(Drawn, aCarsMirrorShowsWhatStandsBeforeIt) {
+  Scene scene = twoBoxes();
+  scene.meshes[1].primitives = {box({-10, 0, -4}, {-9, 3, -2}, 2)};
+  scene.meshes[2].primitives = {box({4, 0, -3}, {5, 3, 3}, 1)};
+  renderer.addInstance(renderer.addScene(scene, SceneFrame::Road));
+  Scene body;
+  body.materials = {paint(glm::vec3(0.2F))};
+  add(body, box({-1, -3, -1}, {1, -2, 1}, 0));  // below the ground
+  const InstanceId car = renderer.addInstance(renderer.addScene(body, SceneFrame::Car));
+  const std::array<glm::vec3, 4> corners{
+      {{3.0F, 1.0F, 0.7F}, {3.0F, -1.0F, 0.7F}, {3.0F, -1.0F, 2.3F}, {3.0F, 1.0F, 2.3F}}};
+  const std::array<std::uint32_t, 6> triangles{0, 1, 2, 0, 2, 3};
+  renderer.addMirror(car, corners, triangles, {-1.0F, 0.0F, 0.0F});
+  sky.rain_mm_h = 5.0;
+  draw();
+  renderer.drawMirrors(
+      {glm::lookAt(glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(1.0, 0.0, 1.4), glm::dvec3(0, 0, 1)),
+       reversedPerspective(1.0, kSize)},
+      target);
+  renderer.toneMap(target, picture.framebuffer(), exposureFor(renderer.adaptingLuminance({0.0, 0.0, 1.5})));
+  const auto rgb = picture.read();
+  EXPECT_EQ(context->glErrors(), 0U);
+  const int left = 80 - static_cast<int>(80.0 * 3.0 * 3.0 / 15.5 / (3.0 * std::tan(0.5)));
+  EXPECT_GT(at(rgb, left, 32).y, 2 * at(rgb, left, 32).x) << "green, where its image lies";
+  const glm::ivec3 right = at(rgb, 160 - left, 32), beside = at(rgb, 8, 32);
+  EXPECT_LT(right.x, 2 * right.y) << "nothing red in it";
+  EXPECT_GT(beside.x, 2 * beside.y) << "beside it there is";
 }
 
 TEST_F(Drawn, theSunCastsShadowsAndRainHidesIt) {

@@ -44,6 +44,15 @@ struct Check {
     return *mesh;
   }
 
+  void needUv(int node, const char* type) const {
+    for (const Primitive& primitive : needMesh(node, type).primitives) {
+      if (primitive.uv0.empty()) {
+        fail(where(node),
+             "extras.rainglass: a " + std::string(type) + " needs TEXCOORD_0 in all of its mesh");
+      }
+    }
+  }
+
   /// A node whose axes carry meaning may be scaled, but not to nothing.
   void needExtent(int node, const char* type) const {
     const float determinant = glm::determinant(glm::mat3(at(node).scene_from_node));
@@ -67,8 +76,11 @@ struct Check {
   void operator()(int node, const LightMeaning&) const;
   void operator()(int node, const WheelMeaning&) const { needAxes(node, "wheel"); }
   void operator()(int node, const SteeringWheelMeaning&);
-  void operator()(int node, const MirrorMeaning&) const {
-    needMesh(node, "mirror");
+  void operator()(int node, const MirrorMeaning& mirror) const {
+    if (mirror.wet)
+      needUv(node, "mirror that is wet");
+    else
+      needMesh(node, "mirror");
     needExtent(node, "mirror");
   }
 };
@@ -92,10 +104,7 @@ bool hasVolume(const std::vector<glm::vec3>& points) {
 
 void Check::operator()(int node, const PaneMeaning& pane) {
   once(node, "pane", pane.name);
-  for (const Primitive& primitive : needMesh(node, "pane").primitives) {
-    if (primitive.uv0.empty())
-      fail(where(node), "extras.rainglass: a pane needs TEXCOORD_0 in all of its mesh");
-  }
+  needUv(node, "pane");
   needExtent(node, "pane");
 }
 

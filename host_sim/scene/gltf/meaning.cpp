@@ -120,8 +120,8 @@ Meaning readSteeringWheel(const Fields& f) {
 }
 
 Meaning readMirror(const Fields& f) {
-  f.allowOnly({"type", "name"});
-  return MirrorMeaning{f.text("name", kLongestName_bytes, "")};
+  f.allowOnly({"type", "name", "wet"});
+  return MirrorMeaning{f.text("name", kLongestName_bytes, ""), f.flag("wet", false)};
 }
 
 using Read = Meaning (*)(const Fields&);

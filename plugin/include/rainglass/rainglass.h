@@ -292,6 +292,10 @@ typedef struct rg_pane_info {
   double sill[4];            /* nx, ny, nz, d, vehicle frame: glass is before the sill where n . p <= d; unit
                                 normal, not across slide_direction; 0 (default): the pane's edge farthest
                                 along slide_direction, as it lies when shut */
+  double mirror; /* 0 (default): glass that is looked through. Above 0 .. 1: a mirror, silvered behind, that
+                    reflects so much of the light. You draw the picture that it shows when dry, draw_glass its
+                    water over that; what its drops show of the world before it they have from the captures or
+                    rg_lighting.environment_cube */
 } rg_pane_info;
 
 typedef struct rg_wiper_info {

@@ -43,8 +43,8 @@ struct FrameBlock {
   float exposure, pixels_per_rad, environment_texels_per_rad, cabin_share;
   float brightness, blur, fine_radius_px;
   uint32_t depth_seen;
-  uint32_t internal_reflections, dry_reflection, unused;
-  float film_unit_m3;
+  uint32_t internal_reflections, dry_reflection;
+  float mirror, film_unit_m3;
   int32_t blade_count;
   float ridge_tan_contact;
   float bead_mm3_per_unit, bead_sine;
@@ -195,6 +195,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.film_unit_m3 = pane.film_unit_m3;
   block.bead_mm3_per_unit =
       1e9f * pane.film_unit_m3 / static_cast<float>(capShape(static_cast<double>(pane.bead_contact_rad)));
+  block.mirror = pane.mirror;
   block.bead_sine = std::sin(std::min(pane.bead_contact_rad, glm::half_pi<float>()));
   block.ridge_tan_contact = std::tan(std::min(pane.ridge_contact_rad, kSteepestRidge_rad));
   for (const LookBlade& blade : pane.blades) {
@@ -302,7 +303,7 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
     drawMesh();
   }
   gl.CullFace(GL_BACK);
-  programs.use(LookStage::pane, variant & ~kCoarse);
+  programs.use(LookStage::pane, (variant & ~kCoarse) | (pane.mirror > 0.0f ? kMirror : kPlain));
   drawMesh();
   gl.Disable(GL_CULL_FACE);
 }
@@ -403,7 +404,8 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
   std::vector<SeenPane> drawn;  // since the picture was fetched
   for (const SeenPane& seen : seenPanes(panes, view)) {
     const LookPane& pane = *seen.pane;
-    if (!isWet(pane) && pane.fog.covered.empty() && !settings.dry_reflection) continue;
+    if (!isWet(pane) && pane.fog.covered.empty() && (!settings.dry_reflection || pane.mirror > 0.0f))
+      continue;
     const bool stale =
         std::any_of(drawn.begin(), drawn.end(), [&](const SeenPane& far) { return liesBehind(far, seen); });
     if (drawn.empty() || stale) {

@@ -16,28 +16,29 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 9> kSources{
-    {{"glass/look_screen.vert", "glass/look_film.frag", kPlain},
-     {"glass/look_screen.vert", "glass/look_beads.frag", kPlain},
-     {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
-     {"glass/look_tiles.comp", "", kPlain},
-     {"glass/look_pane.vert", "glass/look_pane.frag", kInside | kCoarse | kTiled | kBeadless | kLit},
-     {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
-     {"glass/look_place.comp", "", kLamps | kLit},
-     {"glass/look_drop.vert", "glass/look_drop.frag", kLamps | kLit},
-     {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
+constexpr std::array<Source, 9> kSources{{{"glass/look_screen.vert", "glass/look_film.frag", kPlain},
+                                          {"glass/look_screen.vert", "glass/look_beads.frag", kPlain},
+                                          {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
+                                          {"glass/look_tiles.comp", "", kPlain},
+                                          {"glass/look_pane.vert", "glass/look_pane.frag",
+                                           kInside | kCoarse | kTiled | kBeadless | kMirror | kLit},
+                                          {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
+                                          {"glass/look_place.comp", "", kLamps | kLit},
+                                          {"glass/look_drop.vert", "glass/look_drop.frag", kLamps | kLit},
+                                          {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
 
 struct Name {
   LookVariant variant;
   const char* define;
 };
-constexpr std::array<Name, 7> kNames{{{kInside, "INSIDE"},
+constexpr std::array<Name, 8> kNames{{{kInside, "INSIDE"},
                                       {kCoarse, "COARSE"},
                                       {kEnvironment, "ENVIRONMENT"},
                                       {kLamps, "LAMPS"},
                                       {kEncoded, "ENCODED"},
                                       {kTiled, "TILED"},
-                                      {kBeadless, "BEADLESS"}}};
+                                      {kBeadless, "BEADLESS"},
+                                      {kMirror, "MIRROR"}}};
 
 gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant) {
   std::vector<std::string> defines;

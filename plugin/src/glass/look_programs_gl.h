@@ -23,6 +23,7 @@ enum LookVariant : uint32_t {
   kLamps = 8,        // lamps shine
   kEncoded = 16,     // the target holds sRGB
   kTiled = 32,       // of the tiles of one kind alone
+  kMirror = 128,     // a mirror, seen from its wet side
   kBeadless = 64,    // on which no beads lie
 };
 
