@@ -1,4 +1,4 @@
-"""Cameras besides the driver's eye: a look out of the side window, and one behind a lens of its own on the nose."""
+"""Cameras besides the driver's eye: a look out of the side window and into its mirror, and one behind a lens of its own on the nose."""
 import bpy
 import numpy as np
 
@@ -14,6 +14,7 @@ RINGS, ROUND = 10, 32
 
 def make(material_of):
     camera("window", shape.EYE, yaw_deg=58.0, pitch_deg=-8.0, fov_deg=70.0, inside=True)
+    camera("mirror", shape.EYE, yaw_deg=37.6, pitch_deg=-9.3, fov_deg=20.0, inside=True)
     camera("lens", LENS, fov_deg=95.0)
     dome(material_of)
     housing(material_of)
