@@ -33,9 +33,11 @@ vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread, vec2 in
     InnerHit hit = nextFace(cap, p, d);
     float cosine = dot(d, hit.normal);
     float curvature = hit.normal.z > -0.999 ? 1.0 / cap.radius : 0.0;
-    // A mirror's silver lies so close below the drop as if at its base: nothing leaves there.
-    bool silvered = frame.mirror > 0.0 && hit.normal.z < -0.999;
-    float reflected = silvered ? 1.0 : fresnel(cosine, 1.0 / kWaterIndex);
+    float reflected = fresnel(cosine, 1.0 / kWaterIndex);
+#ifdef MIRROR  // its silver lies so close below the drop as if at its base: nothing leaves there
+    bool silvered = hit.normal.z < -0.999;
+    if (silvered) reflected = 1.0;
+#endif
     float leaving = staying * (1.0 - reflected);
     float across = footprint + spread * hit.path;  // of the ray bundle at this face
     in_plane.x += in_plane.y * hit.path;
@@ -47,7 +49,10 @@ vec3 traceInside(Cap cap, vec3 p, vec3 d, float footprint, float spread, vec2 in
       float wide = (kWaterIndex * cosine * in_plane.y - (kWaterIndex * cosine - out_cosine) * turned) / max(out_cosine, 0.1);
       sum += leaving * arriving(out_direction, abs(kWaterIndex * spread - bend), wide);
     }
-    staying *= silvered ? frame.mirror : reflected;
+#ifdef MIRROR
+    if (silvered) reflected = frame.mirror;
+#endif
+    staying *= reflected;
     if (staying < 0.01) break;
     spread = spread - 2.0 * curvature * across * cosine;
     in_plane.y -= 2.0 * turned;

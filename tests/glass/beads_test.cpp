@@ -370,6 +370,34 @@ TEST_F(BeadsOnGlass, drizzleIsBeadsAndPlacedDropsAreNot) {
   EXPECT_EQ(sim.stats().drops, 1u);
 }
 
+// What lies in its way a drop takes up, as wide as it is and no wider.
+TEST_F(BeadsOnGlass, aDropThatSlidesClearsItsWholeWidth) {
+  const Mesh mesh = windscreen(0.3, 0.2, rad(50));
+  glass::PaneInfo info = paneInfo(mesh);
+  info.unevenness = 0.0;  // it runs straight
+  Simulation sim(gl, info);
+  glass::PaneTick drizzle = weather(0.0);
+  drizzle.class_count = 1;
+  drizzle.classes[0] = {0.6e-3, 3000.0, 2.0};
+  sim.run(drizzle, 2.0);
+  const auto lyingBy = [&](double from_m, double to_m) {
+    const std::vector<uint32_t> beads = sim.pane.readBeads();
+    double sum = 0.0;
+    for (int i = 0; i < sim.sim->map().texelCount(); ++i) {
+      const glm::dvec2 place = sim.sim->map().glassFromGrid(sim.sim->map().middleOf(i));
+      const bool asked = std::abs(place.x) >= from_m && std::abs(place.x) < to_m && std::abs(place.y) < 0.05;
+      if (asked) sum += shared::beadsOf(beads[static_cast<size_t>(i)]).volume_pl;
+    }
+    return sum;
+  };
+  const double beside_before = lyingBy(1.6e-3, 4.6e-3), far_before = lyingBy(12e-3, 30e-3);
+  const glass::PlacedDrop drop{0.0, 0.08, 6e-3, 0.6};
+  sim.sim->placeDrops({&drop, 1});
+  sim.run(weather(0.0), 1.5);
+  EXPECT_LT(lyingBy(1.6e-3, 4.6e-3), 0.3 * beside_before) << "under it, beside its middle";
+  EXPECT_NEAR(lyingBy(12e-3, 30e-3) / far_before, 1.0, 0.02);
+}
+
 // At 100 mm/h and 100 km/h slots suffice.
 TEST_F(BeadsOnGlass, slotsSufficeInADownpourAtSpeed) {
   const Mesh mesh = windscreen(0.75, 0.8, rad(30), 0.03);

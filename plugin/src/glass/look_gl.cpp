@@ -184,6 +184,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   const float distance_m = glm::distance(glm::vec3(block.eye_in_vehicle), pane.centre_m);
   const bool coarse = pane.texel_m * block.pixels_per_rad > kCoarseTexel_px * distance_m;
   choose(kCoarse, coarse);
+  choose(kMirror, pane.mirror > 0.0f);
   block.environment_texels_per_rad = environment != 0 ? texelsPerRadian(gl, environment) : 0.0f;
   block.cabin_share = light.cabin_share;
   block.brightness = settings.brightness;
@@ -303,7 +304,7 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
     drawMesh();
   }
   gl.CullFace(GL_BACK);
-  programs.use(LookStage::pane, (variant & ~kCoarse) | (pane.mirror > 0.0f ? kMirror : kPlain));
+  programs.use(LookStage::pane, variant & ~kCoarse);
   drawMesh();
   gl.Disable(GL_CULL_FACE);
 }

@@ -16,16 +16,17 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 9> kSources{{{"glass/look_screen.vert", "glass/look_film.frag", kPlain},
-                                          {"glass/look_screen.vert", "glass/look_beads.frag", kPlain},
-                                          {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
-                                          {"glass/look_tiles.comp", "", kPlain},
-                                          {"glass/look_pane.vert", "glass/look_pane.frag",
-                                           kInside | kCoarse | kTiled | kBeadless | kMirror | kLit},
-                                          {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
-                                          {"glass/look_place.comp", "", kLamps | kLit},
-                                          {"glass/look_drop.vert", "glass/look_drop.frag", kLamps | kLit},
-                                          {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
+constexpr std::array<Source, 9> kSources{
+    {{"glass/look_screen.vert", "glass/look_film.frag", kPlain},
+     {"glass/look_screen.vert", "glass/look_beads.frag", kPlain},
+     {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
+     {"glass/look_tiles.comp", "", kPlain},
+     {"glass/look_pane.vert", "glass/look_pane.frag",
+      kInside | kCoarse | kTiled | kBeadless | kMirror | kLit},
+     {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
+     {"glass/look_place.comp", "", kMirror | kLamps | kLit},
+     {"glass/look_drop.vert", "glass/look_drop.frag", kMirror | kLamps | kLit},
+     {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
 
 struct Name {
   LookVariant variant;
