@@ -87,10 +87,11 @@ RG_FN float counterflow(float fallen, float blown) {
 RG_CONST float kFastest_cells = 7.0f / 8.0f;
 
 // How much of `courant`, a velocity in cells a step, a texel's water goes. Up to a third of the fastest all of it; beyond, the flux of a draining film,
-// courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Never quite half a cell.
+// courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Less than half a cell,
+// so that with four eighths of levelling and roundings nothing gives more than it has.
 RG_FN float keptToOneCell(float courant) {
   float i = 1.0f / max(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
-  return i * i * min(3.0f - 2.0f * i, 1.49f / kFastest_cells);
+  return i * i * min(3.0f - 2.0f * i, 1.48f / kFastest_cells);
 }
 
 // Past the pane's edge the film goes on level; onto dry glass it goes down.
