@@ -102,7 +102,7 @@ class Downpour {
     order.info.rupture_chance = 0.001f;
     order.info.evaporation_mps = 1e-9f;
     order.info.drops_allowed = 1;
-    order.info.pressing_mps2 = 8.5f;
+    shared::setLevelling(order.info, 8.5f, static_cast<float>(1.0 / (kTexel_m * kTexel_m)));
     // A raked windscreen at some 50 km/h.
     order.drive.assign(static_cast<size_t>(map_.nodeCount().x * map_.nodeCount().y),
                        {0.3f, -4.9f, 0.1f, 0.2f});

@@ -90,7 +90,7 @@ Walk walk(ivec2 tile) {
     columns[k] = columnOf(own, x + k);
     FilmCell behind = cellOf(columnOf(back, x + k), y - up, last.own[k], aroundOf(last, k, farthest_back[k], here.own[k]), glassLevel(glass_last, k), step);
     me[k] = cellOf(columns[k], y, here.own[k], aroundOf(here, k, last.own[k], ahead.own[k]), glassLevel(glass_here, k), step);
-    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, me[k], me[k].y_pl * up, step);
+    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, behind.y_both_pl, me[k], me[k].y_pl * up, me[k].y_both_pl, step);
     back_off[k] = behind.volume_pl < 0;
   }
 
@@ -107,13 +107,13 @@ Walk walk(ivec2 tile) {
     FilmCell left = cellOf(left_column, y, here.left.w, by_left, glassLevel(glass_here, -1), step);
     FilmCell right = cellOf(right_column, y, here.right.x, by_right, glassLevel(glass_here, kStripSize), step);
     bool left_off = left.volume_pl < 0;
-    int from_left = flowBetween_pl(left, left.x_pl, me[0], me[0].x_pl, step);
+    int from_left = flowBetween_pl(left, left.x_pl, left.x_both_pl, me[0], me[0].x_pl, me[0].x_both_pl, step);
     for (int k = 0; k < kStripSize; ++k) {
       FilmCell beside = k + 1 < kStripSize ? me[(k + 1) % kStripSize] : right;
-      int to_right = flowBetween_pl(me[k], me[k].x_pl, beside, beside.x_pl, step);
+      int to_right = flowBetween_pl(me[k], me[k].x_pl, me[k].x_both_pl, beside, beside.x_pl, beside.x_both_pl, step);
       FilmCell next = cellOf(columns[k], y + up, ahead.own[k], aroundOf(ahead, k, here.own[k], beyond.own[k]),
                              glassLevel(glass_ahead, k), step);
-      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, next, next.y_pl * up, step);
+      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, me[k].y_both_pl, next, next.y_pl * up, next.y_both_pl, step);
 
       bool on = me[k].volume_pl >= 0;
       over_left += on && left_off ? -from_left : 0;

@@ -31,9 +31,14 @@ struct FilmStepInfo {
   float bead_mm3_per_pl; // the cube of a bead's base radius, see beadRadius_mm
   float bead_drying_pl_mm; // what a bead loses in a turn to dry in still air, by its base radius
   float bead_airing;     // moving air takes 1 + this sqrt(radius in mm) times as much
-  float pressing_mps2;   // acceleration onto the glass, mean over the pane; < 0 where it hangs
+  // Of setLevelling: what the weight of a metre of film drives through a face by a cubed thickness of 1 m^3; the largest cubes that a step takes stably.
+  float weight_pl_m4;
+  float heavy_m3;
+  float tense_m3;
+  float unused_0;
+  float unused_1;
 };
-RG_SIZE(FilmStepInfo, 64)
+RG_SIZE(FilmStepInfo, 80)
 
 // A texel as its neighbours see it.
 struct FilmCell {
@@ -41,9 +46,10 @@ struct FilmCell {
   float h_m;
   int x_pl;      // what it wants to give along x: > 0 to x + 1, < 0 to x - 1
   int y_pl;
-  float heaviness;  // times the cube of a thickness (m^3): the picolitres that pass through a face in a step by its film's weight
-  float hollowness; // ... that surface tension draws in
-  float heavy_m3, tense_m3; // the largest such cubes with which a step is stable
+  int x_both_pl; // what it wants to give to each of its neighbours along x besides
+  int y_both_pl;
+  float hollowness; // times the cube of a thickness (m^3): the picolitres that surface tension draws in through a face in a step
+  float slack;      // how much of a cell its waves leave
   float entry_m;  // how thick a film must be that is driven straight into it: 0 off the pane and where it is wet
 };
 
@@ -63,18 +69,29 @@ RG_FN vec4 betweenNodes(RG_IN(vec4) a, RG_IN(vec4) b, RG_IN(vec4) c, RG_IN(vec4)
 }
 
 // Mean velocity q / h of a film: Nusselt 1916, q = rho g h^3 / (3 mu), and a wind's shear on its surface, q = tau h^2 / (2 mu).
-RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) {
-  return vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m) + vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m);
+RG_FN vec2 fallingVelocity(float h_m, RG_IN(vec4) drive) { return vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m); }
+RG_FN vec2 blownVelocity(float h_m, RG_IN(vec4) drive) { return vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m); }
+RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) { return fallingVelocity(h_m, drive) + blownVelocity(h_m, drive); }
+
+// Where wind opposes gravity the flow q(h) turns round at one thickness and its waves, which go dq/dh, at a lesser one: between both they go against the
+// flow, and what a texel gives by its own thickness alone makes ripples grow. Engquist & Osher 1981 (Math. Comput. 36): the falling part of q goes
+// one way, the rising part the other. Of a film that falls so fast and is blown so fast, the other way, each neighbour gets so much more:
+// |q| where the waves turn, 4/27 blown^3 / fallen^2, less what the wind takes there anyway.
+RG_FN float counterflow(float fallen, float blown) {
+  float f = abs(fallen), b = abs(blown);
+  RG_EXACT float turning = (4.0f / 27.0f) * (b * b * b) / (f * f), both = turning + min(f - b, 0.0f);
+  return fallen * blown < 0.0f && 2.0f * b < 3.0f * f ? both : 0.0f;
 }
 
 // Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
 RG_CONST float kFastest_cells = 7.0f / 8.0f;
 
 // How much of `courant`, a velocity in cells a step, a texel's water goes. Up to a third of the fastest all of it; beyond, the flux of a draining film,
-// courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Never quite half a cell.
+// courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Less than half a cell,
+// so that with four eighths of levelling and roundings nothing gives more than it has.
 RG_FN float keptToOneCell(float courant) {
   float i = 1.0f / max(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
-  return i * i * min(3.0f - 2.0f * i, 1.49f / kFastest_cells);
+  return i * i * min(3.0f - 2.0f * i, 1.48f / kFastest_cells);
 }
 
 // Past the pane's edge the film goes on level; onto dry glass it goes down.
@@ -105,18 +122,15 @@ RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y
 RG_CONST float kTensionsPart = 0.9f;
 RG_CONST float kWeightsPart = 0.5f;
 
-// Pressure of lubrication theory, p = rho g cos a h - gamma lap h (Oron, Davis & Bankoff 1997, Rev. Mod. Phys. 69), whose flux is
-// -h^3 / (3 mu) grad p. As if texels were square and their neighbours as large as they. Thick film on fine texels is slower than that, tension more so:
-// except where the film hangs, and tension is what keeps its weight from drawing short waves out.
-RG_FN void press(RG_INOUT(FilmCell) cell, int hollow_pl, float courant, float per_m2, RG_IN(FilmStepInfo) info) {
-  RG_EXACT float weight = kNusselt_per_m_s * kFilmStep_s * info.pressing_mps2 * per_m2, tension = kTension_m3 * per_m2 * per_m2;
-  RG_EXACT float heaviness = weight * float(cell.volume_pl), hollowness = tension * float(hollow_pl);
-  cell.heaviness = heaviness;
-  cell.hollowness = hollowness;
-  float left = 1.0f - min(3.0f * courant, kFastest_cells);
-  RG_EXACT float tense_m3 = left * (kTensionsPart / 64.0f) / tension, heavy_m3 = left * (kWeightsPart / 8.0f) / max(abs(weight), 1.0f);
-  cell.tense_m3 = tense_m3;
-  cell.heavy_m3 = weight < 0.0f ? min(tense_m3, heavy_m3) : heavy_m3;
+// Of films on texels of these areas (1 / m^2, of the smallest), with an acceleration that presses them onto the glass, < 0 where they hang.
+// Thick film on fine texels is bounded, and so slower than theory says, tension more than weight: except where it hangs, and tension is what keeps its
+// weight from drawing short waves out.
+RG_FN void setLevelling(RG_INOUT(FilmStepInfo) info, float pressing_mps2, float per_m2) {
+  float weight = kNusselt_per_m_s * kFilmStep_s * pressing_mps2;
+  info.weight_pl_m4 = weight / kPicolitre_m3;
+  info.tense_m3 = (kTensionsPart / 64.0f) / (kTension_m3 * per_m2 * per_m2);
+  info.heavy_m3 = (kWeightsPart / 8.0f) / max(abs(weight) * per_m2, 1.0f);
+  if (weight < 0.0f) info.heavy_m3 = min(info.heavy_m3, info.tense_m3);
 }
 
 RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
@@ -125,35 +139,42 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   cell.h_m = thickness_m(volume_pl, metric);
   cell.x_pl = 0;
   cell.y_pl = 0;
-  cell.heaviness = 0.0f;
+  cell.x_both_pl = 0;
+  cell.y_both_pl = 0;
   cell.hollowness = 0.0f;
-  cell.heavy_m3 = 0.0f;
-  cell.tense_m3 = 0.0f;
+  cell.slack = 0.0f;
   cell.entry_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
   // Two fronts that meet over a texel take it between them.
   if (volume_pl < 0 || cell.h_m >= info.pin_m || 2.0f * thickness_m(around.gap_pl, metric) >= cell.entry_m) cell.entry_m = 0.0f;
   if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
-  vec2 u = filmVelocity(cell.h_m, drive);
+  vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), u = fallen + blown;
   if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
   float per_cells = kFilmStep_s / (metric.x * metric.y);
-  float cx = u.x * metric.y * per_cells, cy = u.y * metric.x * per_cells;
-  float courant = abs(cx) + abs(cy);
-  press(cell, around.hollow_pl, courant, metric.z, info);
+  float x_cells = metric.y * per_cells, y_cells = metric.x * per_cells, cx = u.x * x_cells, cy = u.y * y_cells;
+  float cx_both = counterflow(fallen.x, blown.x) * x_cells, cy_both = counterflow(fallen.y, blown.y) * y_cells;
+  float courant = abs(cx) + abs(cy) + 2.0f * (cx_both + cy_both);
+  cell.slack = 1.0f - min(3.0f * courant, kFastest_cells);
+  RG_EXACT float hollowness = kTension_m3 * metric.z * metric.z * float(around.hollow_pl);
+  cell.hollowness = hollowness;
   float scale = float(volume_pl) * keptToOneCell(courant);
   cell.x_pl = int(floor(cx * scale + 0.5f));
   cell.y_pl = int(floor(cy * scale + 0.5f));
+  cell.x_both_pl = int(cx_both * scale);
+  cell.y_both_pl = int(cy_both * scale);
   return cell;
 }
 
 // Films flow slowly: picolitres below one count as often as their share of one, for all faces in the same steps.
 RG_FN float rounding(RG_IN(FilmStepInfo) info) { return unitFloat(pcg(info.step)); }
 
-// Surface tension and weight between neighbours, out of a into b; the same with a minus sign from b's side. Never more than an eighth of what is there.
+// Surface tension and weight between neighbours, out of a into b; the same with a minus sign from b's side. By lubrication theory's flux -h^3 / (3 mu)
+// grad p, p = rho g cos a h - gamma lap h (Oron, Davis & Bankoff 1997, Rev. Mod. Phys. 69), as if texels were square and their neighbours as large as
+// they. Never more than an eighth of what is there.
 RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) info) {
-  if (a.h_m < info.pin_m || b.h_m < info.pin_m) return 0;
   RG_EXACT float cube_m3 = a.h_m * b.h_m * (0.5f * (a.h_m + b.h_m));
-  RG_EXACT float flow = min(cube_m3, min(a.heavy_m3, b.heavy_m3)) * (a.heaviness - b.heaviness) -
-                        min(cube_m3, min(a.tense_m3, b.tense_m3)) * (a.hollowness - b.hollowness);
+  float slack = min(a.slack, b.slack);
+  RG_EXACT float by_weight = min(cube_m3, slack * info.heavy_m3) * (info.weight_pl_m4 * (a.h_m - b.h_m));
+  RG_EXACT float flow = by_weight - min(cube_m3, slack * info.tense_m3) * (a.hollowness - b.hollowness);
   int size = min(int(abs(flow) + rounding(info)), (flow > 0.0f ? a.volume_pl : b.volume_pl) >> 3);
   return flow > 0.0f ? size : -size;
 }
@@ -163,9 +184,11 @@ RG_FN bool enters(RG_IN(FilmCell) from, int along_pl, RG_IN(FilmCell) to) {
   return from.h_m * float(abs(along_pl)) >= to.entry_m * float(max(abs(from.x_pl), abs(from.y_pl)));
 }
 
-// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it.
-RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, RG_IN(FilmCell) b, int b_pl, RG_IN(FilmStepInfo) info) {
-  return levelled_pl(a, b, info) + (enters(a, a_pl, b) ? max(a_pl, 0) : 0) + (enters(b, b_pl, a) ? min(b_pl, 0) : 0);
+// What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it; `a_both_pl`, `b_both_pl`:
+// to either side besides, where there is film.
+RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, int a_both_pl, RG_IN(FilmCell) b, int b_pl, int b_both_pl, RG_IN(FilmStepInfo) info) {
+  int even = a.h_m < info.pin_m || b.h_m < info.pin_m ? 0 : levelled_pl(a, b, info) + a_both_pl - b_both_pl;
+  return even + (enters(a, a_pl, b) ? max(a_pl, 0) : 0) + (enters(b, b_pl, a) ? min(b_pl, 0) : 0);
 }
 
 // A tile dries in every eighth step, for all eight: what else lies still on it need not be looked at in the steps between.

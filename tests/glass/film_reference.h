@@ -15,7 +15,11 @@ namespace rg::test {
 class FilmReference {
  public:
   FilmReference(const glass::PaneMap& map, const glass::UnevenGlass& glass)
-      : map_(map), glass_(glass), columns_(map.grid().size.x), rows_(map.grid().size.y), ridge_(glass::kRidgePieces, 0) {
+      : map_(map),
+        glass_(glass),
+        columns_(map.grid().size.x),
+        rows_(map.grid().size.y),
+        ridge_(glass::kRidgePieces, 0) {
     for (int i = 0; i < map.texelCount(); ++i) film.push_back(map.inside(i) ? 0 : -1);
     beads.assign(film.size(), 0);
   }
@@ -169,8 +173,11 @@ class FilmReference {
       const shared::FilmCell& other = cells[static_cast<size_t>(i + step)];
       const shared::FilmCell& low = step < 0 ? other : me;
       const shared::FilmCell& high = step < 0 ? me : other;
-      const int flow = shared::flowBetween_pl(low, along_x ? low.x_pl : low.y_pl, high,
-                                              along_x ? high.x_pl : high.y_pl, info);
+      const auto between = [&](int low_pl, int low_both_pl, int high_pl, int high_both_pl) {
+        return shared::flowBetween_pl(low, low_pl, low_both_pl, high, high_pl, high_both_pl, info);
+      };
+      const int flow = along_x ? between(low.x_pl, low.x_both_pl, high.x_pl, high.x_both_pl)
+                               : between(low.y_pl, low.y_both_pl, high.y_pl, high.y_both_pl);
       const int out = step < 0 ? -flow : flow;
       volume -= out;
       if (other.volume_pl < 0)

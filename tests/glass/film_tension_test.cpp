@@ -106,6 +106,33 @@ TEST_F(FilmTension, hangingFilmsDrawOutLongWavesAlone) {
   }
 }
 
+// Where wind opposes gravity a film's flow and its waves may go opposite ways, between two thirds and all of
+// rho g h sin a: ripples do not grow there either.
+TEST_F(FilmTension, ripplesDoNotGrowAgainstTheWind) {
+  const glm::ivec2 texels(16, 80);
+  for (const double h_m : {50e-6, 120e-6}) {
+    for (const double ratio : {0.3, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2}) {
+      LoneFilm film(gl, texels, 3e-3);
+      film.lay([&](glm::dvec2 p) { return h_m * (1.0 + 0.05 * std::cos(kPi * (p.x + p.y) / 3e-3)); });
+      const auto ripple_m = [&] {
+        const std::vector<double> h = film.thickness_m();
+        double most = 0.0;
+        for (size_t y = 30; y < 50; ++y) {
+          for (size_t x = 1; x + 1 < 16; ++x) {
+            const size_t i = 16 * y + x;
+            most = std::max(most, std::abs(h[i] - 0.5 * (h[i - 16] + h[i + 16])));
+          }
+        }
+        return most;
+      };
+      film.run(1, 4.0);
+      const double before = ripple_m();
+      film.run(90, 4.0, {0.0, -8.0, 0.0, ratio * 1000.0 * 8.0 * h_m});
+      EXPECT_LT(ripple_m(), 0.7 * before) << h_m << " m, " << ratio;
+    }
+  }
+}
+
 // Nothing grows from texel to texel, however thick the film.
 TEST_F(FilmTension, roughFilmsOfAnyThicknessGrowSmooth) {
   for (const double texel_m : {0.75e-3, 3e-3}) {

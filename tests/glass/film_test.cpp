@@ -225,7 +225,8 @@ TEST(FilmLaw, giveAndTakeAgreeAtEveryFace) {
     const shared::FilmCell cell = shared::filmCell(volume, {0, volume, volume}, 0, drive, metric, info);
     // Half of what is there at most, so that surface tension's four eighths leave nothing negative; one for
     // rounding.
-    ASSERT_LE(std::abs(cell.x_pl) + std::abs(cell.y_pl), volume / 2 + 2);
+    ASSERT_LE(std::abs(cell.x_pl) + std::abs(cell.y_pl) + 2 * (cell.x_both_pl + cell.y_both_pl),
+              volume / 2 + 2);
   }
 }
 

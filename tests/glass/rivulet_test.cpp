@@ -53,6 +53,38 @@ class Rivulets : public GlTest {
   }
 };
 
+// A place's glass is the same however fine the grid, like what is a millimetre away, unlike what is far, and
+// each pane's is its own.
+TEST(UnevenGlass, isSmoothOverMillimetresAndTheSameOnAllGrids) {
+  const Mesh mesh = windscreen(0.3, 0.3, rad(30));
+  glass::PaneInfo info = paneInfo(mesh);
+  const glass::PaneMap usual(info);
+  info.texel_m = 1.5e-3;
+  const glass::PaneMap fine(info);
+  const glass::UnevenGlass glass(usual, 7), finer(fine, 7), other(usual, 8);
+  double near = 0.0, far = 0.0, grids = 0.0, panes = 0.0;
+  int count = 0;
+  for (int i = 0; i < usual.texelCount(); ++i) {
+    const glm::dvec2 place = usual.glassFromGrid(usual.middleOf(i));
+    const auto levelAt = [&](double aside_m) {
+      const int texel = usual.texelAt(usual.gridFromGlass(place + glm::dvec2(aside_m, 0.0)));
+      return texel < 0 ? -1 : glass.level(texel);
+    };
+    const int there = fine.texelAt(fine.gridFromGlass(place));
+    if (levelAt(0.0) < 0 || levelAt(3e-3) < 0 || levelAt(60e-3) < 0 || there < 0) continue;
+    ++count;
+    near += std::pow(levelAt(3e-3) - levelAt(0.0), 2.0);
+    far += std::pow(levelAt(60e-3) - levelAt(0.0), 2.0);
+    grids += std::pow(finer.level(there) - levelAt(0.0), 2.0);
+    panes += std::pow(other.level(i) - levelAt(0.0), 2.0);
+  }
+  ASSERT_GT(count, 1000);
+  EXPECT_LT(near, 0.2 * far);
+  EXPECT_LT(grids, near);  // middles of fine texels lie within a millimetre
+  EXPECT_GT(panes, 0.7 * far);
+  EXPECT_GT(far / count, std::pow(0.2 * shared::kGlassLevels, 2.0)) << "it is all alike";
+}
+
 // As much as a parked screen's streams carry in heavy rain.
 TEST_F(Rivulets, wanderOnDryGlassAndRunStraightOnWet) {
   constexpr double kFlow_m3_s = 40e-9;

@@ -65,6 +65,7 @@ struct PaneSim::State {
         surface(surfaceFor(info)),
         map(info),
         mean_normal(meanNormal(map)),
+        most_per_m2(mostPer_m2(map)),
         uneven(map, chance(), info.unevenness),
         mesh(info, map),
         slide(info, map),
@@ -111,6 +112,12 @@ struct PaneSim::State {
     return sum / map.area_m2();
   }
 
+  static float mostPer_m2(const PaneMap& map) {
+    float most = 0.0f;
+    for (const shared::vec4& node : map.nodeMetric()) most = std::max(most, node.z);
+    return most;
+  }
+
   mutable std::mutex mutex;
   std::string name;
   uint32_t id;
@@ -119,6 +126,7 @@ struct PaneSim::State {
   Surface surface;
   PaneMap map;
   glm::dvec3 mean_normal;
+  float most_per_m2;  // 1 / the least area of a texel
   UnevenGlass uneven;
   PaneMesh mesh;
   Slide slide;
@@ -252,7 +260,7 @@ void PaneSim::State::closeFilmStep() {
       evaporation_kg_s(1e-3, angle, std::min(now.humidity, 1.0), saturated_kg_m3) / kRho_kg_m3 *
       kPicolitresPerM3 * shared::kDryingSteps * kTicksPerFilmStep * kTickSeconds);
   info.bead_airing = static_cast<float>(ventilation(air_mps, 2e-3) - 1.0);
-  info.pressing_mps2 = static_cast<float>(-glm::dot(now.acceleration_mps2, mean_normal));
+  shared::setLevelling(info, static_cast<float>(-glm::dot(now.acceleration_mps2, mean_normal)), most_per_m2);
   film.close(ticks / kTicksPerFilmStep, forces.filmDrive(), info);
 }
 
