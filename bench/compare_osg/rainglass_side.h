@@ -29,7 +29,7 @@ class RainglassSide : public Side {
   rg_view viewAt(const Moment& moment) const;
 
   const GladGLContext& gl_;
-  uint32_t framebuffer_, query_ = 0;
+  uint32_t framebuffer_, queries_[2] = {};
   bool counts_ = false;
   double seen_ = 0.0;
   void* library_ = nullptr;

@@ -1,5 +1,6 @@
-// Works out each drop's streak once, and hands those to be seen to the draw call: a workgroup's stand side by side at the head of its own
-// part of `drawn`, in the order of their slots, so that the same drops always give the same picture; one draw command for each workgroup.
+// Works out each drop's streak once, and hands those to be seen to the draw calls: a workgroup's stand side by side in its own part of `drawn`,
+// lines from its head and rectangles from its end, in the order of their slots, so that the same drops always give the same picture; a draw
+// command of each sort for each workgroup.
 // Defines: SOLIDS where flakes or stones may be among them, as software GL runs both sides of every branch.
 #include "shared/rain_drop.glsl"
 layout(std140, binding = 0) uniform ClassBlock {
@@ -16,13 +17,15 @@ layout(local_size_x = kRainDrawnGroup) in;
 layout(std430, binding = 0) readonly buffer Records { RainDrop records[]; };
 layout(std430, binding = 1) writeonly buffer Drawn { RainCorner drawn[]; };
 layout(std430, binding = 2) writeonly buffer Commands { RainCommand commands[]; };
+layout(std430, binding = 3) writeonly buffer LineCommands { RainLineCommand line_commands[]; };
 layout(location = 0) uniform uint slot_end;
+layout(location = 1) uniform float widest_line_px;  // 0: no lines
 
 const float kSharpFrom_m = 0.5;  // nearer drops are out of any lens's focus: spread until they cannot be seen (unsourced)
 const float kDensest = 0.85;     // what is shown stronger than in nature hides no more of what is behind it (unsourced)
 const float kDot_px = 1e-2;      // shorter ways have no direction
 
-shared uint seen_bits[kRainDrawnGroup / 32u];
+shared uint line_bits[kRainDrawnGroup / 32u], rectangle_bits[kRainDrawnGroup / 32u];
 
 vec2 onScreen(vec3 p) {
   vec4 clip = look.clipFromWorldAtEye * vec4(p, 1.0);
@@ -37,6 +40,16 @@ struct Seen {
   float radius_px_m;  // of the drop, px at 1 m
   uint solid;         // rainSolidCode
 };
+
+// Three parts of 9 bits and a common exponent of 2, to half a percent of the brightest.
+uint rainPackedLight(vec3 light) {
+  const float kBrightest = 65408.0, kDarkest = 1.6e-5;
+  light = clamp(light, 0.0, kBrightest);
+  float most = max(max(light.r, light.g), max(light.b, kDarkest));
+  uint exponent = (floatBitsToUint(most * (512.0 / 511.0)) >> 23u) + 1u;  // of the least power of 2 above it, and 127
+  uvec3 parts = min(uvec3(light * uintBitsToFloat((127u + 127u + 9u - exponent) << 23u) + 0.5), uvec3(511u));
+  return parts.r | parts.g << 9u | parts.b << 18u | (exponent - 112u) << 27u;
+}
 
 // False when none of it is in the picture.
 bool seenOf(uint slot, out Seen result) {
@@ -77,44 +90,111 @@ bool seenOf(uint slot, out Seen result) {
   return true;
 }
 
-// The rectangle lies in the picture's plane; fragments tell from their place in it when the drop passed, and how far beside them.
-void put(uint first, uint slot, Seen s) {
+// What is drawn lies in the picture's plane; fragments tell from their place in it when the drop passed, and how far beside them.
+struct Shape {
+  vec2 along;
+  vec4 ends_px;     // the way with that of the drop itself and of the pixels, from the viewport's middle
+  float length_px;  // of that
+  float middle_px;  // radius, as a drop's pace on the picture goes with the depths' product
+  float pixel_half_px;
+  vec2 radii_px;
+  float side_px;
+};
+
+Shape shapeOf(Seen s) {
+  Shape shape;
   vec2 way = s.ends_px.zw - s.ends_px.xy;
   float way_px = length(way);
-  vec2 along = way_px > kDot_px ? way / way_px : vec2(0.0, 1.0);
-  vec2 depths_m = s.depths_times.xy, times = s.depths_times.zw;
-  vec2 radii_px = vec2(rainSoftened(s.radius_px_m / depths_m.x), rainSoftened(s.radius_px_m / depths_m.y));
-  float middle_px = s.radius_px_m * inversesqrt(depths_m.x * depths_m.y);  // as a drop's pace on the picture goes with the depths' product
-  float pixel_half_px = rainPixelHalf(along);
-  float length_px = rainLength(way_px, middle_px), longer_px = 0.5 * (length_px - way_px);
-  float side_px = max(radii_px.x, radii_px.y) + pixel_half_px;
-  vec2 side = vec2(-along.y, along.x) * side_px, clip = 2.0 / look.viewport.zw;
-  vec2 from_px = s.ends_px.xy - along * longer_px, to_px = s.ends_px.zw + along * longer_px;
-  float from_stored = rainStoredDepth(depths_m.x, look.depth_rows), to_stored = rainStoredDepth(depths_m.y, look.depth_rows);
-  vec4 colour = vec4(s.colour.rgb, s.colour.a * rainDwell(middle_px, times.y - times.x, length_px, pixel_half_px));
-  vec2 from_per = 1.0 / vec2(depths_m.x, radii_px.x), to_per = 1.0 / vec2(depths_m.y, radii_px.y);
-  drawn[first] =
-      RainCorner(vec4((from_px - side) * clip, from_stored, 1.0), vec4(0.0, -side_px, from_per), vec4(times, to_per.x, pixel_half_px + float(s.solid)));
-  drawn[first + 1u] = RainCorner(vec4((from_px + side) * clip, from_stored, 1.0), vec4(0.0, side_px, from_per), colour);
-  drawn[first + 2u] = RainCorner(vec4((to_px - side) * clip, to_stored, 1.0), vec4(1.0, -side_px, to_per), s.ends_px);
-  drawn[first + 3u] = RainCorner(vec4((to_px + side) * clip, to_stored, 1.0), vec4(1.0, side_px, to_per), vec4(float(slot), 0.0, 0.0, 0.0));
+  shape.along = way_px > kDot_px ? way / way_px : vec2(0.0, 1.0);
+  vec2 depths_m = s.depths_times.xy;
+  shape.radii_px = vec2(rainSoftened(s.radius_px_m / depths_m.x), rainSoftened(s.radius_px_m / depths_m.y));
+  shape.middle_px = s.radius_px_m * inversesqrt(depths_m.x * depths_m.y);
+  shape.pixel_half_px = rainPixelHalf(shape.along);
+  shape.length_px = rainLength(way_px, shape.middle_px);
+  vec2 longer_px = shape.along * (0.5 * (shape.length_px - way_px));
+  shape.ends_px = s.ends_px + vec4(-longer_px, longer_px);
+  shape.side_px = max(shape.radii_px.x, shape.radii_px.y) + shape.pixel_half_px;
+  return shape;
+}
+
+// The part, 0 .. 1, of its way that lies in the picture; its first number above its second: none.
+vec2 inPicture(vec4 ends_px) {
+  const float kWithin = 0.99999;  // for roundings
+  vec2 edge_px = (0.5 * kWithin) * look.viewport.zw, way = ends_px.zw - ends_px.xy;
+  way = mix(way, vec2(1e-6), lessThan(abs(way), vec2(1e-6)));
+  vec2 a = (-edge_px - ends_px.xy) / way, b = (edge_px - ends_px.xy) / way;
+  vec2 enter = min(a, b), leave = max(a, b);
+  return vec2(max(max(enter.x, enter.y), 0.0), min(min(leave.x, leave.y), 1.0));
+}
+
+// GL gives a line its width along that axis of the picture along which it is shorter, and none where its middle lies beside the picture.
+bool fitsLine(Shape shape, vec2 kept) {
+  vec2 size = abs(shape.along), half_px = 0.5 * look.viewport.zw;
+  vec2 farthest_px = max(abs(shape.ends_px.xy), abs(shape.ends_px.zw));
+  bool inside = size.x > size.y ? farthest_px.y < half_px.y : farthest_px.x < half_px.x;
+  return inside && kept.x < kept.y && 2.0 * shape.side_px <= widest_line_px * max(size.x, size.y);
+}
+
+// Of a line only the part in the picture: where an end lies outside, software GL takes all of a draw call a slower way.
+void put(uint first, uint slot, Seen s, Shape shape, bool as_line, vec2 kept) {
+  vec2 depths_m = s.depths_times.xy, times = s.depths_times.zw, clip = 2.0 / look.viewport.zw;
+  vec2 from_px = shape.ends_px.xy, to_px = shape.ends_px.zw;
+  vec2 stored = vec2(rainStoredDepth(depths_m.x, look.depth_rows), rainStoredDepth(depths_m.y, look.depth_rows));
+  vec2 per_length = shape.along / shape.length_px, origin_px = from_px + look.viewport.xy + 0.5 * look.viewport.zw;
+  vec4 line = vec4(per_length, -dot(origin_px, per_length), origin_px.x * shape.along.y - origin_px.y * shape.along.x);
+  // Time passes evenly in the world, not on the picture, where one over the depth does.
+  float nearer = depths_m.x / depths_m.y;
+  float cover = s.colour.a * rainDwell(shape.middle_px, times.y - times.x, shape.length_px, shape.pixel_half_px);
+  vec2 per_radius = 1.0 / shape.radii_px;
+  uvec4 told = uvec4(rainPackedLight(s.colour.rgb), packHalf2x16(vec2(times.x, times.y * nearer - times.x)),
+                     packHalf2x16(vec2(nearer - 1.0, sqrt(cover))), packHalf2x16(per_radius));
+  vec2 side = vec2(-shape.along.y, shape.along.x) * shape.side_px;
+  vec4 places[4];
+  if (as_line) {
+    places[0] = vec4(mix(from_px, to_px, kept.x) * clip, mix(stored.x, stored.y, kept.x), 1.0);
+    places[1] = vec4(mix(from_px, to_px, kept.y) * clip, mix(stored.x, stored.y, kept.y), 1.0);
+  } else {
+    places[0] = vec4((from_px - side) * clip, stored.x, 1.0);
+    places[1] = vec4((from_px + side) * clip, stored.x, 1.0);
+    places[2] = vec4((to_px - side) * clip, stored.y, 1.0);
+    places[3] = vec4((to_px + side) * clip, stored.y, 1.0);
+  }
+  drawn[first] = RainCorner(places[0], line, vec4(0.0), s.ends_px);
+  drawn[first + 1u] = RainCorner(places[1], uintBitsToFloat(told), vec4(1.0 / depths_m.x, float(s.solid), 0.0, 0.0), vec4(float(slot), depths_m, 0.0));
+  if (as_line) return;
+  drawn[first + 2u].place = places[2];
+  drawn[first + 3u].place = places[3];
+}
+
+// Of the bits: how many are set, and how many before that of `lane`.
+uvec2 countBits(bool lines, uint lane) {
+  uvec2 count = uvec2(0u);
+  for (uint i = 0u; i < kRainDrawnGroup / 32u; ++i) {
+    uint bits = lines ? line_bits[i] : rectangle_bits[i];
+    count.x += uint(bitCount(bits));
+    if (i == lane / 32u) bits &= (1u << (lane % 32u)) - 1u;
+    if (i <= lane / 32u) count.y += uint(bitCount(bits));
+  }
+  return count;
 }
 
 void main() {
-  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x;
-  if (lane < kRainDrawnGroup / 32u) seen_bits[lane] = 0u;
+  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, slot = gl_GlobalInvocationID.x;
+  if (lane < kRainDrawnGroup / 32u) line_bits[lane] = rectangle_bits[lane] = 0u;
   barrier();
   Seen result;
-  bool seen = seenOf(min(gl_GlobalInvocationID.x, slot_end - 1u), result) && gl_GlobalInvocationID.x < slot_end;
-  if (seen) atomicOr(seen_bits[lane / 32u], 1u << (lane % 32u));
+  bool seen = seenOf(min(slot, slot_end - 1u), result) && slot < slot_end;
+  Shape shape = shapeOf(result);
+  vec2 kept = inPicture(shape.ends_px);
+  bool as_line = fitsLine(shape, kept);
+  uint bit = 1u << (lane % 32u);
+  if (seen && as_line) atomicOr(line_bits[lane / 32u], bit);
+  if (seen && !as_line) atomicOr(rectangle_bits[lane / 32u], bit);
   barrier();
-  uint before = 0u, all = 0u;
-  for (uint i = 0u; i < kRainDrawnGroup / 32u; ++i) {
-    uint bits = seen_bits[i];
-    all += uint(bitCount(bits));
-    if (i == lane / 32u) bits &= (1u << (lane % 32u)) - 1u;
-    if (i <= lane / 32u) before += uint(bitCount(bits));
-  }
-  if (seen) put(4u * (group * kRainDrawnGroup + before), gl_GlobalInvocationID.x, result);
-  if (lane == 0u) commands[group] = RainCommand(6u * all, 1u, 0u, 4u * group * kRainDrawnGroup, 0u);
+  uvec2 lines = countBits(true, lane), rectangles = countBits(false, lane);
+  uint begin = 4u * group * kRainDrawnGroup, end = begin + 4u * kRainDrawnGroup;
+  if (seen) put(as_line ? begin + 2u * lines.y : end - 4u * (rectangles.y + 1u), slot, result, shape, as_line, kept);
+  if (lane > 0u) return;
+  commands[group] = RainCommand(6u * rectangles.x, 1u, 0u, end - 4u * rectangles.x, 0u);
+  line_commands[group] = RainLineCommand(2u * lines.x, 1u, begin, 0u);
 }

@@ -7,33 +7,40 @@
 layout(binding = 0) uniform sampler2D scene_depth;
 #endif
 
-layout(location = 0) noperspective in vec4 streak_seen;  // as of RainCorner
-layout(location = 1) flat in vec4 streak_times;   // xy: of its ends, -1 .. 1 over the whole exposure; z: 1 / depth at its end, 1/m; w: half a pixel's
-                                                  // width across it, px (< 1), + rainSolidCode
-layout(location = 2) flat in vec4 streak_colour;  // rgb: as the target holds it; a: cover where it is densest
+#define FROM in
+#include "rain/streak_told.glsl"
 layout(location = 0) out vec4 colour;
 
 const float kSoft_m = 0.05;  // streaks end over this length at what they meet, so that no hard edge flickers
 
+vec3 unpackedLight(uint light) {
+  float step = uintBitsToFloat((light >> 27u) + 103u << 23u);
+  return vec3(light & 511u, light >> 9u & 511u, light >> 18u & 511u) * step;
+}
+
 void main() {
-  float depth_m = 1.0 / streak_seen.z;
-  // Time passes evenly in the world, not on the picture.
-  float time = mix(streak_times.x, streak_times.y, streak_seen.x * streak_times.z * depth_m);
-  float pixel_half_px = fract(streak_times.w);
-  float share = rainShutter(time) * rainWithin(streak_seen.y, pixel_half_px, streak_seen.w);
+  vec2 at_px = gl_FragCoord.xy;
+  float along = dot(at_px, streak_line.xy) + streak_line.z, length_px = inversesqrt(dot(streak_line.xy, streak_line.xy));
+  vec2 direction = streak_line.xy * length_px;
+  float across_px = at_px.y * direction.x - at_px.x * direction.y + streak_line.w;
+  vec2 times = unpackHalf2x16(streak_look.y), nearer_cover = unpackHalf2x16(streak_look.z), per_radii = unpackHalf2x16(streak_look.w);
+  float deeper = 1.0 + nearer_cover.x * along;  // the depth where it begins by that here
+  float time = (times.x + times.y * along) / deeper;
+  float per_radius = mix(per_radii.x, per_radii.y, along);
+  float pixel_half_px = rainPixelHalf(direction);
+  float share = rainShutter(time) * rainWithin(across_px, pixel_half_px, per_radius);
 #ifdef SOLIDS
-  if (streak_times.w > 1.0) {
-    float per_length = length(vec2(dFdx(streak_seen.x), dFdy(streak_seen.x)));  // 1 / px: along the streak its first part goes from 0 to 1
-    float squareness = clamp(2.0 * per_length / streak_seen.w, 1e-3, 1.0);
-    share = rainSolid(share, 2.0 * streak_seen.x - 1.0, streak_seen.y * streak_seen.w, squareness, pixel_half_px, 1.0 / streak_seen.w,
-                      uint(streak_times.w));
+  if (streak_solid > 0.0) {
+    float squareness = clamp(2.0 / (length_px * per_radius), 1e-3, 1.0);
+    share = rainSolid(share, 2.0 * along - 1.0, across_px * per_radius, squareness, pixel_half_px, 1.0 / per_radius, uint(streak_solid));
   }
 #endif
-  float cover = streak_colour.a * share;
+  float cover = nearer_cover.y * nearer_cover.y * share;
 #ifdef SOFT_DEPTH
-  float scene = rainSceneDepth(texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r, look.depth_rows, look.zero_to_one);
+  float depth_m = 1.0 / (streak_per_depth * deeper);
+  float scene = rainSceneDepth(texelFetch(scene_depth, ivec2(at_px), 0).r, look.depth_rows, look.zero_to_one);
   cover *= clamp((scene - depth_m) / kSoft_m, 0.0, 1.0);
 #endif
   cover = min(cover, 0.95);
-  colour = vec4(streak_colour.rgb * cover, cover);
+  colour = vec4(unpackedLight(streak_look.x) * cover, cover);
 }

@@ -10,16 +10,20 @@
 #include "shared/rain_drop.glsl"
 RG_SHARED_BEGIN
 
-RG_CONST uint kRainDrawnGroup = 256u;  // slots a workgroup looks at, and one draw command draws
+RG_CONST uint kRainDrawnGroup = 1024u;  // slots a workgroup looks at, and one draw command draws: each costs software GL some 10 us
 
-// A corner of a streak's rectangle; four make a streak: both at its beginning, then both at its end.
+// A streak is drawn as a line as long as one so wide covers it, else as a rectangle: a line takes half the vertices and setup.
+RG_CONST float kRainLine_px = 3.0f;
+
+// A corner of a streak. Two are a line: where it begins and where it ends. Four are a rectangle: both at its beginning, then both at its end. The
+// first two tell what is the same for all of the streak, in as few numbers as can be: software GL sets up each for each streak.
 struct RainCorner {
   vec4 place;  // in clip space
-  vec4 seen;   // linear on the picture: place along the streak, 0 .. 1; across it, px; 1 / depth along the view, 1/m; 1 / softened radius, 1/px
-  vec4 told;   // of the whole streak, of the corners in turn: streak.vert's streak_times; its streak_colour; for tests, where it begins (xy) and ends
-               // (zw), px from the viewport's middle; the drop's slot (x)
+  vec4 a;      // of the first corner its streak_line, of the second its streak_look (streak_told.glsl)
+  vec4 b;      // of the second corner 1 / depth along the view where the streak begins, 1/m (x); rainSolidCode (y)
+  vec4 told;   // for tests: where the streak begins (xy) and ends (zw), px from the viewport's middle; the drop's slot (x), and the ends' depths, m
 };
-RG_SIZE(RainCorner, 48)
+RG_SIZE(RainCorner, 64)
 
 // As glMultiDrawElementsIndirect reads it.
 struct RainCommand {
@@ -30,6 +34,15 @@ struct RainCommand {
   uint base_instance;
 };
 RG_SIZE(RainCommand, 20)
+
+// As glMultiDrawArraysIndirect reads it.
+struct RainLineCommand {
+  uint count;
+  uint instances;
+  uint first;
+  uint base_instance;
+};
+RG_SIZE(RainLineCommand, 16)
 
 // Softens the sides of what is narrower than a pixel, so that it does not step from column to column (unsourced).
 RG_CONST float kRainSoft_px = 0.35f;

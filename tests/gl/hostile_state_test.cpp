@@ -309,6 +309,7 @@ void interpose(GladGLContext& gl) {
   RG_INTERPOSE(FrontFace);
   RG_INTERPOSE(PolygonMode);
   RG_INTERPOSE(ProvokingVertex);
+  RG_INTERPOSE(LineWidth);
   RG_INTERPOSE(PointParameteri);
   RG_INTERPOSE(PixelStorei);
   RG_INTERPOSE(PixelTransferf);

@@ -1,5 +1,6 @@
 #include "drawn.h"
 
+#include <algorithm>
 #include <array>
 
 #include "gl/objects.h"
@@ -11,20 +12,16 @@ namespace oracle {
 namespace {
 
 constexpr int kWidth_px = 128, kHeight_px = 72;  // where segments end does not depend on it
-// What is fed back of each corner of a streak's two triangles.
-struct Corner {
-  glm::vec4 seen;  // RainCorner's
-  glm::vec4 told;
-};
-constexpr std::array<const char*, 2> kFedBack{"streak_seen", "fed_back"};
-constexpr size_t kCorners = 6;
-// Where among them the streak's corners are.
-constexpr std::array<size_t, 4> kPlaces{2, 0, 4, 1};
+constexpr const char* kFedBack = "fed_back";     // RainCorner's `told`
+// What is fed back of a streak: a line's two corners, or those of a rectangle's two triangles, the streak's
+// first two before the others.
+enum Shape { kLine, kRectangle };
+constexpr size_t kCorners[] = {2, 6};
 
 // GL's functions take no pointer of ours; these are the draw call's that is under way.
 const GladGLContext* true_gl = nullptr;
-GLuint corners_buffer = 0;
-GLuint triangles_query = 0;
+GLuint corners_buffers[2] = {};
+GLuint primitives_queries[2] = {};
 
 // Links the program in use once more, so that it gives out its segments' ends.
 void askForEnds(const GladGLContext& gl) {
@@ -33,20 +30,28 @@ void askForEnds(const GladGLContext& gl) {
   const auto program = static_cast<GLuint>(current);
   gl.GetProgramiv(program, GL_TRANSFORM_FEEDBACK_VARYINGS, &asked);
   if (asked != 0) return;
-  gl.TransformFeedbackVaryings(program, static_cast<GLsizei>(kFedBack.size()), kFedBack.data(),
-                               GL_INTERLEAVED_ATTRIBS);
+  gl.TransformFeedbackVaryings(program, 1, &kFedBack, GL_INTERLEAVED_ATTRIBS);
   gl.LinkProgram(program);
 }
 
-// In the place of the plugin's glMultiDrawElementsIndirect.
-void drawAndFeedBack(GLenum mode, GLenum type, const void* commands, GLsizei count, GLsizei stride) {
+template <class F>
+void feedBack(Shape shape, GLenum mode, F&& draw) {
   askForEnds(*true_gl);
-  true_gl->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, corners_buffer);
-  true_gl->BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, triangles_query);
-  true_gl->BeginTransformFeedback(GL_TRIANGLES);
-  true_gl->MultiDrawElementsIndirect(mode, type, commands, count, stride);
+  true_gl->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, corners_buffers[shape]);
+  true_gl->BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, primitives_queries[shape]);
+  true_gl->BeginTransformFeedback(mode);
+  draw();
   true_gl->EndTransformFeedback();
   true_gl->EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
+}
+
+// In the place of those of the plugin.
+void drawLines(GLenum mode, const void* commands, GLsizei count, GLsizei stride) {
+  feedBack(kLine, mode, [&] { true_gl->MultiDrawArraysIndirect(mode, commands, count, stride); });
+}
+void drawRectangles(GLenum mode, GLenum type, const void* commands, GLsizei count, GLsizei stride) {
+  feedBack(kRectangle, mode,
+           [&] { true_gl->MultiDrawElementsIndirect(mode, type, commands, count, stride); });
 }
 
 // Where a point of the picture lies that far along the view.
@@ -64,29 +69,38 @@ struct DrawnStreaks::Gpu {
   Gpu(uint32_t capacity_drops, bool read_back)
       : plugins(rg::gl::loadContext(rg::test::GlContext::getProc, nullptr)),
         renderer(*plugins, capacity_drops),
-        corners(context.gl, capacity_drops * kCorners * sizeof(Corner)),
+        lines(context.gl, capacity_drops * kCorners[kLine] * sizeof(glm::vec4)),
+        rectangles(context.gl, capacity_drops * kCorners[kRectangle] * sizeof(glm::vec4)),
         colour(context.gl, GL_RGBA32F, kWidth_px, kHeight_px),
         target(context.gl, {&colour}) {
-    context.gl.GenQueries(1, &triangles);
-    if (read_back) plugins->gl.MultiDrawElementsIndirect = drawAndFeedBack;
+    context.gl.GenQueries(2, primitives);
+    if (!read_back) return;
+    plugins->gl.MultiDrawArraysIndirect = drawLines;
+    plugins->gl.MultiDrawElementsIndirect = drawRectangles;
   }
-  ~Gpu() { context.gl.DeleteQueries(1, &triangles); }
+  ~Gpu() { context.gl.DeleteQueries(2, primitives); }
   Gpu(const Gpu&) = delete;
   Gpu& operator=(const Gpu&) = delete;
 
-  std::vector<Corner> fedBack() const {
-    GLuint triangles_drawn = 0;
-    context.gl.GetQueryObjectuiv(triangles, GL_QUERY_RESULT, &triangles_drawn);
-    std::vector<Corner> all(size_t{triangles_drawn} * 3);
-    if (!all.empty()) corners.read(0, all.data(), all.size() * sizeof(Corner));
-    return all;
+  // Of each streak the first two corners' words.
+  std::vector<std::array<glm::vec4, 2>> fedBack() const {
+    std::vector<std::array<glm::vec4, 2>> streaks;
+    for (const Shape shape : {kLine, kRectangle}) {
+      GLuint count = 0;
+      context.gl.GetQueryObjectuiv(primitives[shape], GL_QUERY_RESULT, &count);
+      std::vector<glm::vec4> all(size_t{count} * (shape == kLine ? 2 : 3));
+      if (!all.empty())
+        (shape == kLine ? lines : rectangles).read(0, all.data(), all.size() * sizeof(glm::vec4));
+      for (size_t i = 0; i < all.size(); i += kCorners[shape]) streaks.push_back({all[i], all[i + 1]});
+    }
+    return streaks;
   }
 
   rg::test::GlContext context;
   std::unique_ptr<rg::gl::Context> plugins;  // the same context, as the plugin sees it
   rg::rain::RainRenderer renderer;
-  rg::gl::Buffer corners;
-  GLuint triangles = 0;
+  rg::gl::Buffer lines, rectangles;
+  GLuint primitives[2] = {};
   rg::gl::Texture2D colour;
   rg::gl::Framebuffer target;
 };
@@ -100,8 +114,9 @@ std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::View
   Gpu& g = *gpu_;
   g.context.makeCurrent();
   true_gl = &g.context.gl;
-  corners_buffer = g.corners.name();
-  triangles_query = g.triangles;
+  corners_buffers[kLine] = g.lines.name();
+  corners_buffers[kRectangle] = g.rectangles.name();
+  std::copy_n(g.primitives, 2, primitives_queries);
   const uint32_t slot_end = upload.picture.slot_end;
   g.renderer.upload(upload);
   g.colour.zero();
@@ -116,13 +131,10 @@ std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::View
 
   std::vector<Segment> segments(slot_end);
   if (!read_back_) return segments;
-  const std::vector<Corner> corners = g.fedBack();
-  for (size_t i = 0; i < corners.size(); i += kCorners) {
-    const auto corner = [&](size_t k) -> const Corner& { return corners[i + kPlaces[k]]; };
-    const glm::vec4 ends_px = corner(2).told;
-    segments.at(static_cast<size_t>(corner(3).told.x)) = {
-        true, placeOf(view, {ends_px.x, ends_px.y}, 1.0f / corner(0).seen.z),
-        placeOf(view, {ends_px.z, ends_px.w}, 1.0f / corner(2).seen.z)};
+  for (const auto& [ends_px, slot_depths] : g.fedBack()) {
+    segments.at(static_cast<size_t>(slot_depths.x)) = {true,
+                                                       placeOf(view, {ends_px.x, ends_px.y}, slot_depths.y),
+                                                       placeOf(view, {ends_px.z, ends_px.w}, slot_depths.z)};
   }
   return segments;
 }

@@ -216,13 +216,14 @@ TEST_F(OneStreak, coversAsMuchAtEveryPlaceOnTheGrid) {
   }
 }
 
+// To 2 parts in a thousand: fragments are told the root of the cover as a half float.
 TEST_F(OneStreak, coversInProportionToTheGain) {
   Case c;
   const double physical = drawn(c).sum();
   for (const float gain : {0.5f, 2.5f, 10.0f}) {
     c.gain = gain;
     EXPECT_NEAR(drawn(c).sum(), static_cast<double>(gain) * physical,
-                1e-3 * static_cast<double>(gain) * physical);
+                2e-3 * static_cast<double>(gain) * physical);
   }
 }
 

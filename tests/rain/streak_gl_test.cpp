@@ -158,6 +158,27 @@ TEST_F(StreakPicture, looksTheSameAt30And60And240FramesASecond) {
   }
 }
 
+// Where lines may not be wide all streaks are rectangles. What of each pixel is covered is the same; only at
+// the very ends and sides, where next to nothing is, a line may leave out a pixel that a rectangle holds, or
+// the other way round.
+TEST_F(StreakPicture, isTheSameOfLinesAndOfRectangles) {
+  const Rain rain(50.0, 10.0);
+  const auto of_lines = draw(rain, {.width = 640, .height = 360});
+  const auto getFloats = loaded->gl.GetFloatv;
+  static PFNGLGETFLOATVPROC true_get = nullptr;
+  true_get = getFloats;
+  loaded->gl.GetFloatv = [](GLenum name, GLfloat* values) {
+    true_get(name, values);
+    if (name == GL_ALIASED_LINE_WIDTH_RANGE) values[1] = 1.0f;
+  };
+  const auto of_rectangles = draw(rain, {.width = 640, .height = 360});
+  loaded->gl.GetFloatv = getFloats;
+  const double difference = rg::test::greatestDifference(of_lines, of_rectangles);
+  EXPECT_GT(difference, 0.0);  // else there were no lines
+  EXPECT_LT(difference, 0.01);
+  EXPECT_NEAR(addedOverGround(of_lines), addedOverGround(of_rectangles), 2e-3 * addedOverGround(of_lines));
+}
+
 TEST_F(StreakPicture, isTheSameForTheSameDrops) {
   const Rain rain(50.0, 10.0);
   EXPECT_EQ(rg::test::greatestDifference(draw(rain, {}), draw(rain, {})), 0.0f);

@@ -271,6 +271,7 @@ void OddState::raster(size_t v) const {
   gl.FrontFace(v == 0 ? GL_CW : GL_CCW);
   gl.PolygonMode(GL_FRONT_AND_BACK, v == 0 ? GL_LINE : GL_POINT);
   gl.ProvokingVertex(v == 0 ? GL_FIRST_VERTEX_CONVENTION : GL_LAST_VERTEX_CONVENTION);
+  gl.LineWidth(v == 0 ? 0.5f : 0.75f);
   gl.PointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, v == 0 ? GL_LOWER_LEFT : GL_UPPER_LEFT);
 }
 
@@ -310,7 +311,6 @@ void OddState::hostOnly(size_t v) const {
   gl.SampleMaski(0, 0x5);
   gl.MinSampleShading(0.5f);
   gl.PrimitiveRestartIndex(7);
-  gl.LineWidth(0.5f);
   gl.PointSize(3.5f);
   gl.PointParameterf(GL_POINT_FADE_THRESHOLD_SIZE, 2.5f);
   gl.PatchParameteri(GL_PATCH_VERTICES, 5);

@@ -145,6 +145,7 @@ struct DepthState {
 
 struct RasterState {
   GLint cull_face = 0, front_face = 0, provoking_vertex = 0, point_origin = 0;
+  GLfloat line_width = 1.0f;
   std::array<GLint, 2> polygon_mode{};
   Switches<kRasterSwitches.size()> switches;
   Switches<kRasterCompatibilitySwitches.size()> compatibility_switches;

@@ -51,6 +51,7 @@ void RasterState::save(const Context& context) {
   cull_face = integer(gl, GL_CULL_FACE_MODE);
   front_face = integer(gl, GL_FRONT_FACE);
   provoking_vertex = integer(gl, GL_PROVOKING_VERTEX);
+  gl.GetFloatv(GL_LINE_WIDTH, &line_width);
   point_origin = integer(gl, GL_POINT_SPRITE_COORD_ORIGIN);
   polygon_mode.fill(0);
   gl.GetIntegerv(GL_POLYGON_MODE, polygon_mode.data());  // two values in compatibility, one or two in core
@@ -63,6 +64,7 @@ void RasterState::restore(const Context& context) const {
   gl.CullFace(asEnum(cull_face));
   gl.FrontFace(asEnum(front_face));
   gl.ProvokingVertex(asEnum(provoking_vertex));
+  gl.LineWidth(line_width);
   gl.PointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, point_origin);
   switches.restore(gl, kRasterSwitches);
   if (!context.compatibility) {

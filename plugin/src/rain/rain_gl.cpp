@@ -24,12 +24,12 @@ constexpr uint32_t groupsOf(uint32_t slots) {
   return (slots + shared::kRainDrawnGroup - 1) / shared::kRainDrawnGroup;
 }
 
-// The two triangles of each of a group's streaks. Both end with the streak's first corner, whose flat values
+// The two triangles of each of a group's rectangles. Both begin with the first corner, whose flat values
 // count.
 std::vector<uint32_t> rectangles() {
   std::vector<uint32_t> indices;
   for (uint32_t i = 0; i < shared::kRainDrawnGroup; ++i) {
-    for (const uint32_t corner : {1u, 3u, 0u, 3u, 2u, 0u}) indices.push_back(4 * i + corner);
+    for (const uint32_t corner : {0u, 1u, 3u, 0u, 3u, 2u}) indices.push_back(4 * i + corner);
   }
   return indices;
 }
@@ -53,6 +53,17 @@ struct Programs {
   gl::Program prepare, tested, soft;  // to a depth buffer that is tested, or read
 };
 
+// Whether lines may be as wide as kRainLine_px: in contexts from which all that is deprecated is gone they
+// may not.
+bool hasWideLines(const GladGLContext& gl) {
+  GLint flags = 0;
+  std::array<GLfloat, 2> widths{};
+  gl.GetIntegerv(GL_CONTEXT_FLAGS, &flags);
+  gl.GetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, widths.data());
+  return (static_cast<GLuint>(flags) & GL_CONTEXT_FLAG_FORWARD_COMPATIBLE_BIT) == 0 &&
+         widths[1] >= shared::kRainLine_px;
+}
+
 // Corners of the streaks of so many slots, and one that the very last reads in vain.
 size_t cornersOf(uint32_t slots) { return size_t{4} * groupsOf(slots) * shared::kRainDrawnGroup + 1; }
 
@@ -68,8 +79,9 @@ struct RainRenderer::Objects {
   uint32_t capacity;
   Programs rain, all;
   gl::Program scatter;
-  gl::Buffer records, slots, fresh, classes, shelter, drawn, commands, corners;
+  gl::Buffer records, slots, fresh, classes, shelter, drawn, commands, line_commands, corners;
   gl::VertexArray vertices;
+  bool lines;  // thin streaks are drawn as such
   Canvas canvas;
   Picture picture;
   bool drawable = false;
@@ -92,18 +104,23 @@ RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_dro
       shelter(gl, sizeof(shared::RainShelter)),
       drawn(gl, cornersOf(capacity) * sizeof(shared::RainCorner), 0),
       commands(gl, size_t{groupsOf(capacity)} * sizeof(shared::RainCommand), 0),
+      line_commands(gl, size_t{groupsOf(capacity)} * sizeof(shared::RainLineCommand), 0),
       corners(gl, std::span<const uint32_t>(rectangles())),
       vertices(gl),
+      lines(hasWideLines(gl)),
       canvas(gl),
       last_write(capacity),
       solid(capacity) {
   records.zero();
   vertices.bindIndices(corners.name());
   vertices.bindBuffer(0, drawn.name(), 0, sizeof(shared::RainCorner));
-  vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(shared::RainCorner, place));
-  vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(shared::RainCorner, seen));
-  vertices.attribute(2, 0, 4, GL_FLOAT, offsetof(shared::RainCorner, told));
-  vertices.attribute(3, 0, 4, GL_FLOAT, sizeof(shared::RainCorner) + offsetof(shared::RainCorner, told));
+  using shared::RainCorner;
+  const size_t next = sizeof(RainCorner);
+  vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(RainCorner, place));
+  vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(RainCorner, a));
+  vertices.attribute(2, 0, 4, GL_FLOAT, next + offsetof(RainCorner, a));
+  vertices.attribute(3, 0, 2, GL_FLOAT, next + offsetof(RainCorner, b));
+  vertices.attribute(4, 0, 4, GL_FLOAT, offsetof(RainCorner, told));
 }
 
 void RainRenderer::Objects::send(std::span<const uint32_t> to, std::span<const RainDrop> drops) {
@@ -139,15 +156,23 @@ void RainRenderer::Objects::drawStreaks(uint32_t slot_end, bool soft_depth) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, records.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, drawn.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, commands.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, line_commands.name());
   programs.prepare.use();
   programs.prepare.set(0, slot_end);
+  programs.prepare.set(1, lines ? shared::kRainLine_px : 0.0f);
   gl.DispatchCompute(groupsOf(slot_end), 1, 1);
   gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   (soft_depth ? programs.soft : programs.tested).use();
   gl.BindVertexArray(vertices.name());
+  gl.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
+  const auto draws = static_cast<GLsizei>(groupsOf(slot_end));
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
-  gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
-                               static_cast<GLsizei>(groupsOf(slot_end)), 0);
+  gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, draws, 0);
+  if (lines) {
+    gl.LineWidth(shared::kRainLine_px);
+    gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, line_commands.name());
+    gl.MultiDrawArraysIndirect(GL_LINES, nullptr, draws, 0);
+  }
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's streaks do not overtake these
 }
 
@@ -199,8 +224,8 @@ void RainRenderer::forget() {
   o.rain.forget();
   o.all.forget();
   o.scatter.forget();
-  for (gl::Buffer* buffer :
-       {&o.records, &o.slots, &o.fresh, &o.classes, &o.shelter, &o.drawn, &o.commands, &o.corners})
+  for (gl::Buffer* buffer : {&o.records, &o.slots, &o.fresh, &o.classes, &o.shelter, &o.drawn, &o.commands,
+                             &o.line_commands, &o.corners})
     buffer->forget();
   o.vertices.forget();
   o.canvas.forget();

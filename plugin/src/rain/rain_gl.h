@@ -23,7 +23,7 @@ class RainRenderer {
   void upload(Upload& upload);
 
   // Draws the drops as of the last upload, placed at draw.time_ns. Call within a state guard; touches:
-  // program, vertex array, uniform buffers 0 .. 2, buffer bindings GL_SHADER_STORAGE_BUFFER 0 .. 2 and
+  // program, vertex array, uniform buffers 0 .. 2, buffer bindings GL_SHADER_STORAGE_BUFFER 0 .. 3 and
   // GL_DRAW_INDIRECT_BUFFER, texture units 0 .. 2 with their samplers, draw framebuffer, viewport, blend,
   // depth, raster state. Twice the same draw gives the same picture.
   void draw(const RainDraw& draw);
