@@ -50,7 +50,8 @@ struct FilmCell {
   int y_both_pl;
   float hollowness; // times the cube of a thickness (m^3): the picolitres that surface tension draws in through a face in a step
   float slack;      // how much of a cell its waves leave
-  float entry_m;  // how thick a film must be that is driven straight into it: 0 off the pane and where it is wet
+  float mainly_pl;  // the greater of what it wants to give along x and y
+  float entry_m;    // how thick a film must be that is driven straight into it: 0 off the pane and where it is wet
 };
 
 // What a texel's law asks of its four neighbours.
@@ -73,14 +74,13 @@ RG_FN vec2 fallingVelocity(float h_m, RG_IN(vec4) drive) { return vec2(drive.x, 
 RG_FN vec2 blownVelocity(float h_m, RG_IN(vec4) drive) { return vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m); }
 RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) { return fallingVelocity(h_m, drive) + blownVelocity(h_m, drive); }
 
-// Where wind opposes gravity the flow q(h) turns round at one thickness and its waves, which go dq/dh, at a lesser one: between both they go against the
-// flow, and what a texel gives by its own thickness alone makes ripples grow. Engquist & Osher 1981 (Math. Comput. 36): the falling part of q goes
-// one way, the rising part the other. Of a film that falls so fast and is blown so fast, the other way, each neighbour gets so much more:
-// |q| where the waves turn, 4/27 blown^3 / fallen^2, less what the wind takes there anyway.
+// Where wind opposes gravity the flow q(h) turns round at one thickness and its waves, which go dq/dh = 3 fallen - 2 blown, at two thirds of that: between
+// both they go against the flow, and what a texel gives by its own thickness alone makes ripples grow. So of a film that falls so fast and is blown
+// so fast, the other way, each neighbour gets this much more. Ripples die where that, times h, rises with h as fast as q does there (as Engquist &
+// Osher 1981, Math. Comput. 36, split q): 0.6 (3 fallen - 4/3 blown) is no less, and above it need not fall.
 RG_FN float counterflow(float fallen, float blown) {
   float f = abs(fallen), b = abs(blown);
-  RG_EXACT float turning = (4.0f / 27.0f) * (b * b * b) / (f * f), both = turning + min(f - b, 0.0f);
-  return fallen * blown < 0.0f && 2.0f * b < 3.0f * f ? both : 0.0f;
+  return fallen * blown < 0.0f ? 0.6f * max(min(f - (2.0f / 3.0f) * b, b * (1.0f / 3.0f)), 0.0f) : 0.0f;
 }
 
 // Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
@@ -114,8 +114,9 @@ RG_FN float unevenness(int level) { return float(level) * (2.0f / float(kMostUne
 // Tangent of the largest turn that uneven glass gives a contact line's way, and so what runs there (unsourced).
 RG_CONST float kMostTurn = 0.75f;
 
-// Where it has dry glass beside it a stream follows its edge, whose way over uneven glass is not straight down.
-RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y, along.x)) / (1.0f + turn * turn); }
+// Where it has dry glass beside it a stream follows its edge, whose way over uneven glass is not straight down: driven by the part along it of what drives
+// it, so times the square of the turn's cosine (0.64 at the largest).
+RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y, along.x)) * (1.0f - 0.64f * turn * turn); }
 
 // Differences of a step damp what changes from texel to texel by 64 of tension's share and 8 of weight's, and waves by twice their way: beyond two in all
 // it would grow. Of what waves leave of two these are for tension and for weight; the rest is there so that what alternates dies away.
@@ -143,6 +144,7 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   cell.y_both_pl = 0;
   cell.hollowness = 0.0f;
   cell.slack = 0.0f;
+  cell.mainly_pl = 0.0f;
   cell.entry_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
   // Two fronts that meet over a texel take it between them.
   if (volume_pl < 0 || cell.h_m >= info.pin_m || 2.0f * thickness_m(around.gap_pl, metric) >= cell.entry_m) cell.entry_m = 0.0f;
@@ -159,6 +161,7 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   float scale = float(volume_pl) * keptToOneCell(courant);
   cell.x_pl = int(floor(cx * scale + 0.5f));
   cell.y_pl = int(floor(cy * scale + 0.5f));
+  cell.mainly_pl = float(max(abs(cell.x_pl), abs(cell.y_pl)));
   cell.x_both_pl = int(cx_both * scale);
   cell.y_both_pl = int(cy_both * scale);
   return cell;
@@ -181,7 +184,7 @@ RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) 
 
 // Whether it overcomes what holds the contact line that lies between: what drives the film is as its thickness, and but a part of it goes that way.
 RG_FN bool enters(RG_IN(FilmCell) from, int along_pl, RG_IN(FilmCell) to) {
-  return from.h_m * float(abs(along_pl)) >= to.entry_m * float(max(abs(from.x_pl), abs(from.y_pl)));
+  return from.h_m * float(abs(along_pl)) >= to.entry_m * from.mainly_pl;
 }
 
 // What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it; `a_both_pl`, `b_both_pl`:

@@ -1,5 +1,6 @@
-// Glass is not the same everywhere: how easily water advances over it varies over millimetres and centimetres, and
-// stays where it is. Fronts of film turn into fingers by it, streams and sliding drops wander.
+// Glass is not the same everywhere: how easily water advances over it varies over millimetres and
+// centimetres, and stays where it is. Fronts of film turn into fingers by it, streams and sliding drops
+// wander.
 #pragma once
 
 #include <cstdint>

@@ -53,14 +53,14 @@ struct Programs {
   gl::Program prepare, tested, soft;  // to a depth buffer that is tested, or read
 };
 
-// Whether lines may be as wide as kRainLine_px: in contexts from which all that is deprecated is gone they
-// may not.
-bool hasWideLines(const GladGLContext& gl) {
+// Whether thin streaks are lines. On a GPU setup costs nothing, and each draws wide lines in its own way. In
+// contexts from which all that is deprecated is gone lines may not be wide.
+bool drawsLines(const gl::Context& context) {
   GLint flags = 0;
   std::array<GLfloat, 2> widths{};
-  gl.GetIntegerv(GL_CONTEXT_FLAGS, &flags);
-  gl.GetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, widths.data());
-  return (static_cast<GLuint>(flags) & GL_CONTEXT_FLAG_FORWARD_COMPATIBLE_BIT) == 0 &&
+  context.gl.GetIntegerv(GL_CONTEXT_FLAGS, &flags);
+  context.gl.GetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, widths.data());
+  return context.software && (static_cast<GLuint>(flags) & GL_CONTEXT_FLAG_FORWARD_COMPATIBLE_BIT) == 0 &&
          widths[1] >= shared::kRainLine_px;
 }
 
@@ -107,7 +107,7 @@ RainRenderer::Objects::Objects(const gl::Context& context, uint32_t capacity_dro
       line_commands(gl, size_t{groupsOf(capacity)} * sizeof(shared::RainLineCommand), 0),
       corners(gl, std::span<const uint32_t>(rectangles())),
       vertices(gl),
-      lines(hasWideLines(gl)),
+      lines(drawsLines(context)),
       canvas(gl),
       last_write(capacity),
       solid(capacity) {
