@@ -82,7 +82,7 @@ TEST(UnevenGlass, isSmoothOverMillimetresAndTheSameOnAllGrids) {
   EXPECT_LT(near, 0.2 * far);
   EXPECT_LT(grids, near);  // middles of fine texels lie within a millimetre
   EXPECT_GT(panes, 0.7 * far);
-  EXPECT_GT(far / count, std::pow(0.2 * shared::kGlassLevels, 2.0)) << "it is all alike";
+  EXPECT_GT(far / count, std::pow(0.2 * shared::kMostUneven, 2.0)) << "it is all alike";
 }
 
 // As much as a parked screen's streams carry in heavy rain.

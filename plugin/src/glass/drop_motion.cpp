@@ -81,6 +81,7 @@ void Drops::slide(const DropWorld& world, int slot) {
   drop.velocity_mps = glm::vec2(velocity);
   if (speed < 1e-5) return;
 
+  const glm::dvec2 from_m = drop.place_m;
   unlink(slot);
   drop.place_m += velocity / push.metres * kTickSeconds;
   link(slot);
@@ -92,22 +93,36 @@ void Drops::slide(const DropWorld& world, int slot) {
   const int texel = world.map.texelAt(drop.place_m);
   if (overEdge(world, slot, texel)) return;
   if (texel != drop.texel) {
+    takeOnTheWay(world, slot, from_m, width_m);
     drop.texel = texel;
-    takeAcross(world, slot, width_m);
   }
   if (!drop.changed) changed_.push_back(slot);
   drop.changed = true;
   leaveTrail(world, drop, speed * kTickSeconds, speed, push.metres);
 }
 
-// What lies across its way: as far to both sides as it is wide.
-void Drops::takeAcross(const DropWorld& world, int slot, double width_m) {
+// A fast drop passes more than a texel in a tick.
+void Drops::takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, double width_m) {
+  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const glm::dvec2 way_m = drop.place_m - from_m;
+  const double steps = std::ceil(glm::length(way_m) / world.map.grid().texel_m);
+  int last = drop.texel;
+  for (double step = 1.0; step <= steps; ++step) {
+    const glm::dvec2 place_m = from_m + way_m * (step / steps);
+    const int texel = world.map.texelAt(place_m);
+    if (texel >= 0 && texel != last) takeAcross(world, slot, place_m, width_m);
+    last = texel;
+  }
+}
+
+// What lies across its way at a place: as far to both sides as it is wide.
+void Drops::takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, double width_m) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double texel_m = world.map.grid().texel_m;
   const glm::dvec2 side(-drop.heading.y, drop.heading.x);
   const int reach = std::min(static_cast<int>(0.5 * width_m / texel_m + 0.5), kMostAside);
   for (int k = -reach; k <= reach; ++k) {
-    const int texel = k == 0 ? drop.texel : world.map.texelAt(drop.place_m + k * texel_m * side);
+    const int texel = world.map.texelAt(place_m + k * texel_m * side);
     if (texel < 0 || !world.film.watered(texel)) continue;
     const double share = std::min(1.0, 0.5 * width_m / texel_m + 0.5 - std::abs(k));
     world.film.take(texel, k == 0 ? std::min(1.0, width_m / texel_m) : share, static_cast<uint32_t>(slot),

@@ -98,7 +98,8 @@ class Drops {
   static bool mayMove(const DropWorld& world, const Drop& drop);
   void leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres);
   void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres);
-  void takeAcross(const DropWorld& world, int slot, double width_m);
+  void takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, double width_m);
+  void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);
   void shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl);
   bool lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl);
