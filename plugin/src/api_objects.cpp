@@ -112,6 +112,8 @@ rg_result setPane(rg_instance* instance, uint32_t id, const rg_pane_info* in) {
     if (finiteVector(info.sill, "rg_pane_info.sill") != glm::dvec3(0.0)) {
       checkRange(info.sill[3], -100.0, 100.0, "rg_pane_info.sill");
       pane.sill = glm::dvec4(unitVector(info.sill, "rg_pane_info.sill"), info.sill[3]);
+    } else if (info.sill[3] != 0.0) {
+      refuse("rg_pane_info.sill: its normal is 0, its distance is not");
     }
     pane.positions_m = positions;
     pane.uvs = uvs;

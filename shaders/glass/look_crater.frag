@@ -1,4 +1,4 @@
-// What a crater adds to the film's slope and thickness: no more than the film has there by now.
+// What a crater adds to the film's slope and thickness: each no more than the film has there by now.
 #include "optics/look_frame.glsl"
 #include "optics/film_slope.glsl"
 #include "shared/glass_crater.glsl"

@@ -64,7 +64,10 @@ struct FilmAround {
 RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
 
 // Field between the corners of a tile. `f` in 0..1.
-RG_FN vec4 between(RG_IN(vec4) a, RG_IN(vec4) b, float f) { return a + (b - a) * f; }
+RG_FN vec4 between(RG_IN(vec4) a, RG_IN(vec4) b, float f) {
+  RG_EXACT vec4 value = a + (b - a) * f;
+  return value;
+}
 RG_FN vec4 betweenNodes(RG_IN(vec4) a, RG_IN(vec4) b, RG_IN(vec4) c, RG_IN(vec4) d, vec2 f) {
   return between(between(a, b, f.x), between(c, d, f.x), f.y);
 }
@@ -149,18 +152,21 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   // Two fronts that meet over a texel take it between them.
   if (volume_pl < 0 || cell.h_m >= info.pin_m || 2.0f * thickness_m(around.gap_pl, metric) >= cell.entry_m) cell.entry_m = 0.0f;
   if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
-  vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), u = fallen + blown;
+  // Exact: both sides of a face work a texel out for themselves, and must agree to the picolitre.
+  RG_EXACT vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), u = fallen + blown;
   if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
-  float per_cells = kFilmStep_s / (metric.x * metric.y);
-  float x_cells = metric.y * per_cells, y_cells = metric.x * per_cells, cx = u.x * x_cells, cy = u.y * y_cells;
-  float cx_both = counterflow(fallen.x, blown.x) * x_cells, cy_both = counterflow(fallen.y, blown.y) * y_cells;
-  float courant = abs(cx) + abs(cy) + 2.0f * (cx_both + cy_both);
-  cell.slack = 1.0f - min(3.0f * courant, kFastest_cells);
+  RG_EXACT float per_cells = kFilmStep_s / (metric.x * metric.y);
+  RG_EXACT float x_cells = metric.y * per_cells, y_cells = metric.x * per_cells, cx = u.x * x_cells, cy = u.y * y_cells;
+  RG_EXACT float cx_both = counterflow(fallen.x, blown.x) * x_cells, cy_both = counterflow(fallen.y, blown.y) * y_cells;
+  RG_EXACT float courant = abs(cx) + abs(cy) + 2.0f * (cx_both + cy_both);
+  RG_EXACT float slack = 1.0f - min(3.0f * courant, kFastest_cells);
+  cell.slack = slack;
   RG_EXACT float hollowness = kTension_m3 * metric.z * metric.z * float(around.hollow_pl);
   cell.hollowness = hollowness;
-  float scale = float(volume_pl) * keptToOneCell(courant);
-  cell.x_pl = int(floor(cx * scale + 0.5f));
-  cell.y_pl = int(floor(cy * scale + 0.5f));
+  RG_EXACT float scale = float(volume_pl) * keptToOneCell(courant);
+  RG_EXACT float x_wish = cx * scale + 0.5f, y_wish = cy * scale + 0.5f;
+  cell.x_pl = int(floor(x_wish));
+  cell.y_pl = int(floor(y_wish));
   cell.mainly_pl = float(max(abs(cell.x_pl), abs(cell.y_pl)));
   cell.x_both_pl = int(cx_both * scale);
   cell.y_both_pl = int(cy_both * scale);

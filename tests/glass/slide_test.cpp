@@ -200,6 +200,7 @@ TEST_F(SlidingFilm, theLedgerClosesWhereverItStands) {
     const Hidden behind = behindSill(run, 0.2);
     EXPECT_EQ(behind.off, behind.texels);
     run.sim->detachFilm();
+    run.tick(opened(rain, 0.2));  // the film comes back in the middle of its step
     run.sim->attachFilm();
     glass::PaneGl again(gl, glass::makeFilmPrograms(gl), run.sim);
     for (int i = 0; i < 20; ++i) {

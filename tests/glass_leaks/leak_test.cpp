@@ -11,7 +11,7 @@ namespace {
 
 class Leak : public GlTest {
  protected:
-  // Share of the catch that is missing after three seconds of a wiped downpour on a pane that then dries.
+  // Share of the catch that is missing after two seconds of a wiped downpour on a pane that then dries.
   double missing(glass::FilmKernel gpu, glass::LeakyKernel cpu) {
     const Mesh mesh = windscreen(0.6, 0.4, rad(30), 0.03);
     glass::PaneInfo info = paneInfo(mesh);
@@ -20,7 +20,7 @@ class Leak : public GlTest {
     Simulation sim(gl, info, gpu);
     sim.sim->setWiper(3, wiper(rad(30), 0.4));
     const WiperMotor motor(3, rad(20), rad(150), 70.0);
-    sim.run(weather(100.0, 15.0, 0.3), 3.0, &motor);
+    sim.run(weather(100.0, 15.0, 0.3), 2.0, &motor);
     glass::leaky_kernel = glass::LeakyKernel::none;
     const glass::PaneStats s = sim.stats();
     return static_cast<double>(s.caught_pl - sumOf(s)) / static_cast<double>(s.caught_pl);

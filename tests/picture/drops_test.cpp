@@ -24,6 +24,7 @@ void expectPathTracedLook(const std::string& name) {
 
 TEST(KnownDrops, onUncoatedGlassLookPathTraced) { expectPathTracedLook("pane_uncoated"); }
 TEST(KnownDrops, onCoatedGlassLookPathTraced) { expectPathTracedLook("pane_coated"); }
+TEST(KnownDrops, onASteeperPaneBesideTheEyeLookPathTraced) { expectPathTracedLook("pane_steep"); }
 
 }  // namespace
 }  // namespace testing_host

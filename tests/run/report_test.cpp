@@ -22,7 +22,7 @@ nlohmann::json runScenario(const std::string& name, const std::string& options) 
 }
 
 TEST(Report, holdsWhatItPromises) {
-  const nlohmann::json json = runScenario("parked", "--seconds 1 --fps 10");
+  const nlohmann::json json = runScenario("parked", "--seconds 1 --fps 10 --set prewarm_s=0.5");
   ASSERT_TRUE(json.is_object());
   for (const char* key : {"vendor", "renderer", "version"}) EXPECT_TRUE(json["gl"][key].is_string()) << key;
   EXPECT_TRUE(json["timer"] == "gpu" || json["timer"] == "finish");
@@ -52,7 +52,7 @@ TEST(Report, holdsWhatItPromises) {
 // Terms of the ledger that a scenario is to put to the test, by more than a millilitre on one of its panes,
 // and after how long it does.
 struct TermsTested {
-  double after_s = 1.0;
+  double after_s = 0.6;
   std::vector<const char*> terms{};
 };
 const std::map<std::string, TermsTested> kTermsTested = {
@@ -90,7 +90,7 @@ class EveryScenario : public ::testing::TestWithParam<std::string> {};
 TEST_P(EveryScenario, conservesWaterInItsFirstSeconds) {
   const TermsTested tested = termsTestedBy(GetParam());
   expectWaterConserved(GetParam(), "--seconds " + std::to_string(tested.after_s) +
-                                       (tested.terms.empty() ? " --set prewarm_s=1" : ""));
+                                       (tested.terms.empty() ? " --set prewarm_s=0.5" : ""));
 }
 
 class LongEveryScenario : public ::testing::TestWithParam<std::string> {};

@@ -40,7 +40,7 @@
  *
  *   Structs begin with `struct_size`: set it with the matching default_* function (or to sizeof). They grow only at the end. Arrays carry a
  *   stride in bytes, so that a host compiled against an older header still walks them right. The fixed structs (rg_pose, rg_wiper_knot,
- *   rg_glass_drop, rg_lamp) never grow.
+ *   rg_opening_knot, rg_glass_drop, rg_lamp) never grow.
  *   Pointers in a struct are read during the call only; nothing of yours is kept, except callbacks with their user pointers.
  *   Every function returns an rg_result; negative means: nothing was changed, last_error() tells why. Positive means done, with a remark.
  *   GL: every call on the GL thread leaves your state as it found it (see attach_gl). Preconditions that GL cannot ask or suspend: no

@@ -2,6 +2,7 @@
 // even chart, else laid flat anew from the positions, so that seams and uneven uvs change nothing.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <stdexcept>
 #include <string>

@@ -20,6 +20,13 @@ glm::dvec2 waveVelocity_mps(const Push& push, const glm::dvec2& shear_pa, double
   return (push.acceleration_mps2 * (kRho_kg_m3 * film_m) + shear_pa) * (film_m / kMu_pa_s);
 }
 
+// How much of one is to be seen: what it displaces, but for a factor.
+float displaced_m3(const shared::CraterRecord& crater, double age_s) {
+  const auto age = static_cast<float>(age_s);
+  const float width_m = shared::craterWidth_m(crater, age);
+  return crater.film_m * shared::craterDepthLeft(crater, age) * width_m * width_m;
+}
+
 bool isSeen(const shared::CraterRecord& crater, double age_s) {
   const auto age = static_cast<float>(age_s);
   return crater.film_m * shared::craterDepthLeft(crater, age) >
@@ -60,7 +67,9 @@ void Craters::add(const Impact& impact, double film_m, const ForceField& forces,
   if (!isSeen(crater.record, 0.0)) return;
   int32_t& known = of_cell_[cellOf(impact.place_m)];
   if (known >= 0) {
-    craters_[static_cast<size_t>(known)] = crater;
+    Crater& before = craters_[static_cast<size_t>(known)];
+    const double age_s = static_cast<double>(tick - before.tick) * kTickSeconds;
+    if (displaced_m3(crater.record, 0.0) > displaced_m3(before.record, age_s)) before = crater;
     return;
   }
   known = static_cast<int32_t>(craters_.size());

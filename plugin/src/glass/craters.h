@@ -16,7 +16,7 @@ class Craters {
   explicit Craters(const PaneMap& map);
 
   // A drop fell into a film of this thickness. One too small to be seen in the film's grid leaves none; one
-  // that falls where another did takes its place.
+  // that falls where another did takes its place, unless more of that is to be seen.
   void add(const Impact& impact, double film_m, const ForceField& forces, int64_t tick);
   // Records as of a tick, of those that are still to be seen; forgets the others.
   std::vector<shared::CraterRecord> at(int64_t tick);

@@ -216,7 +216,7 @@ void GlassLook::Parts::bindLook(const LookLight& light, const LookTarget& target
   const uint32_t environment = environmentOf(light);
   choose(kEnvironment, environment != 0);
   choose(kEncoded, target.srgb);
-  // Made with the first pane that is drawn, not with the first drop that falls.
+  // Made with the first pane that is drawn in such a light, not with the first drop that falls.
   for (const LookStage stage : {LookStage::place, LookStage::drops, LookStage::small_drops})
     programs.use(stage, variant);
   gl.BindTextureUnit(kSurroundings, environment != 0 ? environment : no_environment.name());
@@ -294,11 +294,14 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
   const auto drawMesh = [&] { gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr); };
-  if (pane.tile_buffer != 0) {
+  if (pane.mirror > 0.0f) {
+    // Its silver lets nothing through.
+  } else if (pane.tile_buffer != 0) {
     programs.use(LookStage::pane, variant | kInside | kTiled | kBeadless).set(0, kFilmTile);
     drawMesh();
     programs.use(LookStage::pane, variant | kInside | kTiled).set(0, kBeadTile);
     drawMesh();
+    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's kinds do not overtake these
   } else {
     programs.use(LookStage::pane, variant | kInside);
     drawMesh();

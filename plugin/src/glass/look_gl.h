@@ -106,7 +106,8 @@ struct LookPane {
   uint32_t ridge_buffer = 0;      // int32_t volume of each piece, in units of film_unit_m3
   float ridge_contact_rad = 0.7f;
   LookFog fog;
-  float mirror = 0.0f;  // of a mirror, whose dry picture the target shows: share of the light that it reflects
+  float mirror =
+      0.0f;  // of a mirror, whose dry picture the target shows: share of the light that it reflects
   // Drops: shared::GlassDropRecord in an SSBO. A record of seed 0 has a perfectly round outline (placed
   // drops), others their own.
   uint32_t drop_buffer = 0;

@@ -23,8 +23,8 @@ enum LookVariant : uint32_t {
   kLamps = 8,        // lamps shine
   kEncoded = 16,     // the target holds sRGB
   kTiled = 32,       // of the tiles of one kind alone
-  kMirror = 128,     // a mirror, seen from its wet side
   kBeadless = 64,    // on which no beads lie
+  kMirror = 128,     // a mirror, seen from its wet side
 };
 
 class LookPrograms {

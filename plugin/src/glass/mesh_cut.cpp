@@ -1,6 +1,7 @@
 #include "glass/mesh_cut.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shared/glass_types.glsl"
 

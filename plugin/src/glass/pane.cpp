@@ -448,7 +448,9 @@ void PaneSim::attachFilm() {
   const std::lock_guard lock(state_->mutex);
   if (!state_->film_enabled || state_->film.attached()) return;
   state_->film.attach();
-  state_->slid_on_film = 0;
+  // What is behind the sill is none of its glass, from its first step on.
+  for (size_t i = 0; i < state_->slid; ++i) state_->film.slide(state_->slide.texel(state_->map, i), false);
+  state_->slid_on_film = state_->slid;
 }
 
 void PaneSim::detachFilm() {

@@ -41,9 +41,9 @@ struct PaneInfo {
   double texel_m = 3e-3;
   uint32_t max_drops = 20000;  // 0: the film alone
   bool film_enabled = true;
-  double unevenness = 1.0;  // 0: the same everywhere, see uneven_glass.h
-  double demister = 0.0;   // share of its air that blows up the inner side
-  double mirror = 0.0;     // share of the light that its silvered inner side reflects; 0: it is looked through
+  double unevenness = 1.0;  // 0: the same everywhere, see uneven_glass.h; tests of laws ask for that
+  double demister = 0.0;    // share of its air that blows up the inner side
+  double mirror = 0.0;  // share of the light that its silvered inner side reflects; 0: it is looked through
   double opening_m = 0.0;  // how far a window has slid before it is told otherwise
   // Of a window that slides, see slide.h. 0: down its own surface; its lower edge.
   glm::dvec3 slide_direction{0.0};  // unit

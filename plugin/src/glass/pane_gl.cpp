@@ -146,17 +146,21 @@ void PaneGl::Parts::uploadDrops() {
 
 void PaneGl::Parts::open(double to_m) {
   if (opening_m == to_m) return;
-  opening_m = to_m;
   const Slide& slide = sim->slide();
   PaneMesh seen = slide.hides(to_m) ? cutAtSill(sim->mesh(), slide, to_m) : sim->mesh();
-  index_count = seen.indices.size();
-  if (index_count == 0) return;
-  seen.vertices = gridVertices(seen, sim->map().grid());
-  const TiledMesh tiled = cutIntoTiles(seen, sim->map().grid().size);
+  TiledMesh tiled;
+  if (!seen.indices.empty()) {
+    seen.vertices = gridVertices(seen, sim->map().grid());
+    tiled = cutIntoTiles(seen, sim->map().grid().size);
+    gl::Buffer made[] = {gl::Buffer(gl, std::span<const float>(tiled.mesh.vertices)),
+                         gl::Buffer(gl, std::span<const uint32_t>(tiled.mesh.indices)),
+                         gl::Buffer(gl, std::span<const uint32_t>(tiled.tiles))};
+    vertices = std::move(made[0]);
+    indices = std::move(made[1]);
+    tiles = std::move(made[2]);
+  }
   index_count = tiled.mesh.indices.size();
-  vertices = gl::Buffer(gl, std::span<const float>(tiled.mesh.vertices));
-  indices = gl::Buffer(gl, std::span<const uint32_t>(tiled.mesh.indices));
-  tiles = gl::Buffer(gl, std::span<const uint32_t>(tiled.tiles));
+  opening_m = to_m;
 }
 
 void PaneGl::open(double opening_m) { parts_->open(opening_m); }

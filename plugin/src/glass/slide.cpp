@@ -41,6 +41,13 @@ glm::dvec4 ownSill(const PaneInfo& info, const glm::dvec3& direction, const glm:
   return {n, side.x * a.y - side.y * a.x};
 }
 
+glm::dvec4 squareSill(const PaneInfo& info, const glm::dvec3& direction) {
+  double farthest_m = -1e30;
+  for (const uint32_t i : info.indices)
+    farthest_m = std::max(farthest_m, glm::dot(glm::dvec3(info.positions_m[i]), direction));
+  return {direction, farthest_m};
+}
+
 }  // namespace
 
 Slide::Slide(const PaneInfo& info, const PaneMap& map) : given_(glm::dvec3(info.sill) != glm::dvec3(0.0)) {
@@ -53,6 +60,9 @@ Slide::Slide(const PaneInfo& info, const PaneMap& map) : given_(glm::dvec3(info.
     throw std::invalid_argument("pane '" + info.name + "': does not slide along its own surface");
   sill_ = given_ ? info.sill : ownSill(info, direction_, normal);
   fall_ = glm::dot(glm::dvec3(sill_), direction_);
+  // An edge that steep is none to slide behind: a pane that comes to a point goes behind one square to its
+  // way.
+  if (!given_ && fall_ < kLeastFall) sill_ = squareSill(info, direction_), fall_ = 1.0;
   if (fall_ < kLeastFall)
     throw std::invalid_argument("pane '" + info.name + "': its sill does not lie across the way it slides");
 }
