@@ -13,7 +13,7 @@ RG_SHARED_BEGIN
 RG_CONST uint kRainDrawnGroup = 1024u;  // slots a workgroup looks at, and one draw command draws: each costs software GL some 10 us
 
 // On software GL a streak is drawn as a line as long as one so wide covers it, else as a rectangle: a line takes half the vertices and setup.
-RG_CONST float kRainLine_px = 3.0f;
+RG_CONST float kRainLine_px = 4.0f;
 
 // A corner of a streak. Two are a line: where it begins and where it ends. Four are a rectangle: both at its beginning, then both at its end. The
 // first two tell what is the same for all of the streak, in as few numbers as can be: software GL sets up each for each streak.
