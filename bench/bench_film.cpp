@@ -231,18 +231,10 @@ void compare(const GladGLContext& gl, glm::ivec2 grid, int frames) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0)) {
-    std::fputs(kUsage, stdout);
-    return 0;
-  }
-  try {
+  return bench::program(argc, argv, "bench_film", kUsage, [&] {
     const Options options = parse(argc, argv);
     const GladGLContext gl = bench::makeContext();
     std::puts("grid,film_step_ms,copy_ms,ratio");
     for (const glm::ivec2 grid : options.grids) compare(gl, grid, options.frames);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_film: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -166,18 +166,10 @@ void measure(const GladGLContext& gl, int drops, int frames) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0)) {
-    std::fputs(kUsage, stdout);
-    return 0;
-  }
-  try {
+  return bench::program(argc, argv, "bench_glass", kUsage, [&] {
     const Options options = parse(argc, argv);
     const GladGLContext gl = bench::makeContext();
     std::puts("drops,live,ticks_ms,step_ms,draw_ms,all_ms");
     for (const int drops : options.drops) measure(gl, drops, options.frames);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_glass: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

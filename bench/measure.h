@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -67,5 +68,21 @@ class Stopwatch {
   bool software_;
   std::array<rg::gl::TimestampQuery, 2> queries_;
 };
+
+// What a program does with its arguments: --help, `run`, or one line that says what is wrong.
+template <class Run>
+int program(int argc, char** argv, const char* name, const char* usage, const Run& run) {
+  if (argc > 1 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0)) {
+    std::fputs(usage, stdout);
+    return 0;
+  }
+  try {
+    run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 2;
+  }
+  return 0;
+}
 
 }  // namespace bench

@@ -41,8 +41,8 @@ TEST_F(SlidingArguments, refusesNonsense) {
       "a count without knots", [&] { return tell(nullptr, 1); }, RG_ERROR_BAD_ARGUMENT, "opening_knots");
 }
 
-// A window of 0.4 m in driving rain, opened by 0.3 m and shut again between 0.2 and 0.8 s, time cut into pieces
-// of so many ticks.
+// A window of 0.4 m in driving rain, opened by 0.3 m and shut again between 0.2 and 0.8 s, time cut into
+// pieces of so many ticks.
 struct Driven {
   uint64_t state;
   rg_pane_stats stats;

@@ -383,7 +383,8 @@ TEST_F(BeadsOnGlass, aDropThatSlidesClearsItsWholeWidth) {
   sim.run(drizzle, 2.0);
   const glass::PaneMap& map = sim.sim->map();
   const double column_m = map.glassFromGrid(map.middleOf(map.texelAt(map.gridFromGlass({0.0, 0.08})))).x;
-  // How many in the columns of texels that lie so far to both sides of the drop's. (It leaves pearls, few and large.)
+  // How many in the columns of texels that lie so far to both sides of the drop's. (It leaves pearls, few and
+  // large.)
   const auto lyingBy = [&](double from_m, double to_m) {
     const std::vector<uint32_t> beads = sim.pane.readBeads();
     double sum = 0.0;

@@ -260,12 +260,12 @@ typedef struct rg_pane_info {
   uint32_t vehicle; /* > 0 */
   const char* name;
   const float* positions_m; /* vehicle frame, xyz */
-  const float* uvs;         /* without overlap, any scale. One chart whose lengths are a quarter off their mean
-                               at most is the pane's own grid. Where it has seams (vertices at one place with
-                               several uvs) or is less even, the mesh is laid flat anew, true to length as far
-                               as can be: then seams and uvs change nothing. With seams it must not turn by
-                               more than a right angle from its mean */
-  const uint32_t* indices;  /* triangles */
+  const float* uvs;        /* without overlap, any scale. One chart whose lengths are a quarter off their mean
+                              at most is the pane's own grid. Where it has seams (vertices at one place with
+                              several uvs) or is less even, the mesh is laid flat anew, true to length as far
+                              as can be: then seams and uvs change nothing. With seams it must not turn by
+                              more than a right angle from its mean */
+  const uint32_t* indices; /* triangles */
   uint32_t vertex_count;
   uint32_t index_count;
   size_t position_stride; /* bytes, 0 = tight */
