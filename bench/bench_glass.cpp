@@ -28,7 +28,7 @@ constexpr const char* kUsage =
     "1280 x 720 over a background that moves: two ticks of the drops, a step of the film, the drawing.\n"
     "Prints CSV, medians: drops (asked for), live, ticks_ms, step_ms, draw_ms, all_ms (of their sums).\n"
     "  --frames N   how many, 8 to 100000 (60)\n"
-    "  --drops N    1 to 100000; may be given again (2000 20000)\n";
+    "  --drops N    1000 to 100000; may be given again (2000 20000)\n";
 
 constexpr glm::ivec2 kSize_px{1280, 720};
 constexpr int kFramesOfRun = 16;  // then sliding drops have swept up too many others, and all begins anew
@@ -48,7 +48,7 @@ Options parse(int argc, char** argv) {
     if (name == "--frames")
       options.frames = number(argv[i + 1], 8, 100000, "--frames");
     else
-      options.drops.push_back(number(argv[i + 1], 1, 100000, "--drops"));
+      options.drops.push_back(number(argv[i + 1], 1000, 100000, "--drops"));
   }
   if (options.drops.empty()) options.drops = {2000, 20000};
   return options;

@@ -4,7 +4,7 @@
 #include "optics/near.glsl"
 #include "optics/ridge.glsl"
 #include "optics/surroundings.glsl"
-#include "optics/tile.glsl"
+#include "shared/glass_tile.glsl"
 #include "shared/optics_drop.glsl"
 
 layout(binding = 2) uniform sampler2D film;  // of look_film.frag; empty where the pane has none

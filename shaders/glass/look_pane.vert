@@ -4,7 +4,7 @@ layout(location = 0) in vec3 position;  // vehicle frame, m
 layout(location = 1) in vec3 normal;    // out of the glass
 layout(location = 2) in vec2 uv;
 #ifdef TILED  // of a mesh cut into tiles only those of one kind are drawn
-#include "optics/tile.glsl"
+#include "shared/glass_tile.glsl"
 layout(location = 3) in uint tile;
 layout(location = 0) uniform uint wanted;
 layout(std430, binding = 1) readonly buffer Tiles { uint kinds[]; };

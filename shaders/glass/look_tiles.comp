@@ -1,7 +1,7 @@
 // Tells the tiles of a pane apart by what is to be seen on them, so that none costs more than that. A group is a tile.
 #include "optics/look_frame.glsl"
 #include "optics/ridge.glsl"
-#include "optics/tile.glsl"
+#include "shared/glass_tile.glsl"
 #include "shared/glass_types.glsl"
 
 layout(local_size_x = 32) in;

@@ -180,6 +180,27 @@ TEST_F(SlidingFilm, theSealStripsWhatGoesDown) {
   }
 }
 
+// A film that is made in the middle of its step, the window half down, has no glass behind the sill from that
+// step on.
+TEST_F(SlidingFilm, madeInTheMiddleOfAStepKnowsOfTheSill) {
+  const Mesh mesh = window();
+  glass::PaneInfo pane = info(mesh);
+  pane.max_drops = 0;  // all is film
+  const auto sim = std::make_shared<glass::PaneSim>(pane, 1, 7);
+  glass::PaneTick flood = opened(weather(0.0, 15.0), 0.15);
+  flood.class_count = 1;
+  flood.classes[0] = {3e-3, 2e4, 8.0};  // some 100 um in a tick: it flows at once
+  for (flood.index = 1; flood.index <= 3; ++flood.index) sim->submit(flood);
+  glass::PaneGl gpu(gl, glass::makeFilmPrograms(gl), sim);
+  for (; flood.index <= 7; ++flood.index) {
+    sim->submit(flood);
+    gpu.finish();
+    const glass::PaneStats s = sim->stats();
+    EXPECT_EQ(s.caught_pl, sumOf(s)) << "tick " << flood.index;
+  }
+  EXPECT_GT(sim->stats().film_pl, 0);
+}
+
 // Up and down in a downpour, the last ticks as when it stands open; then the film is lost with its context.
 TEST_F(SlidingFilm, theLedgerClosesWhereverItStands) {
   const Mesh mesh = window();

@@ -153,8 +153,8 @@ TEST_F(Look, aCraterBendsTheViewWhereThereIsFilmAndNowhereElse) {
 // Tiles that have nothing to be seen are left out, others are drawn with what they have.
 TEST_F(Look, aPaneCutIntoTilesShowsTheSame) {
   FlatPane pane(gl, kRake, 0.8, 250);
-  // Film above, thinning out towards the middle; beads to the right; drops here and there; the rest is dry.
-  pane.putFilm([](double, double v) { return v > 0.05 ? 1e-4 * (v - 0.05) : 1e-7; });
+  // Film above, up to the very edge of its tiles; beads to the right; drops here and there; the rest is dry.
+  pane.putFilm([](double, double v) { return v > 0.0608 ? 4e-5 : 1e-7; });
   pane.putBeads([](double u, double v) { return u > 0.1 && v < 0.2 ? 3 : 0; }, 0.3, glm::radians(25.0));
   pane.putDrops(scatter(pane, 100, 3e-3, glm::radians(60.0), 4));
   glass::LookBlade blade;

@@ -17,6 +17,7 @@
 #include "glass/look_programs_gl.h"
 #include "glass/pane_gl.h"
 #include "glass/water.h"
+#include "shared/glass_tile.glsl"
 
 namespace rg::glass {
 namespace {
@@ -27,9 +28,6 @@ constexpr int kPlaceGroup = 64;          // drops in a group of look_place.comp
 constexpr float kCoarseTexel_px = 6.0f;  // a film of larger texels would show facets
 constexpr float kFineRadius_px = 3.0f;
 constexpr float kSteepestRidge_rad = 1.4f;
-
-// As in shaders/optics/tile.glsl.
-constexpr uint32_t kFilmTile = 1, kBeadTile = 2;
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -297,9 +295,9 @@ void GlassLook::Parts::drawFilm(const LookPane& pane) {
   if (pane.mirror > 0.0f) {
     // Its silver lets nothing through.
   } else if (pane.tile_buffer != 0) {
-    programs.use(LookStage::pane, variant | kInside | kTiled | kBeadless).set(0, kFilmTile);
+    programs.use(LookStage::pane, variant | kInside | kTiled | kBeadless).set(0, shared::kFilmTile);
     drawMesh();
-    programs.use(LookStage::pane, variant | kInside | kTiled).set(0, kBeadTile);
+    programs.use(LookStage::pane, variant | kInside | kTiled).set(0, shared::kBeadTile);
     drawMesh();
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's kinds do not overtake these
   } else {
