@@ -6,13 +6,13 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "window/egl_displays.h"
+
 namespace bench {
 
 GladGLContext makeContext() {
-  EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (display == EGL_NO_DISPLAY) display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-  if (!eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
-    throw std::runtime_error("there is no EGL");
+  EGLDisplay display = egl_first_display();
+  if (display == EGL_NO_DISPLAY) throw std::runtime_error("there is no EGL");
   const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
                            4,
                            EGL_CONTEXT_MINOR_VERSION,

@@ -1,47 +1,10 @@
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-
-#include <cstring>
-#include <vector>
+#include <array>
 
 #include "window/context.h"
+#include "window/egl_displays.h"
 
 namespace host {
 namespace {
-
-bool has(const char* extensions, const char* name) {
-  return extensions != nullptr && std::strstr(extensions, name) != nullptr;
-}
-
-template <typename Function>
-Function load(const char* name) {
-  return reinterpret_cast<Function>(eglGetProcAddress(name));
-}
-
-/// GPUs first, then Mesa's surfaceless platform, then devices that are software.
-std::vector<EGLDisplay> displays() {
-  const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  const auto get_display = load<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  std::vector<EGLDisplay> found, software;
-  if (get_display == nullptr) return found;
-  if (has(client, "EGL_EXT_platform_device") && has(client, "EGL_EXT_device_enumeration")) {
-    const auto query_devices = load<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    const auto query_string = load<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-    EGLDeviceEXT devices[16];
-    EGLint count = 0;
-    if (query_devices != nullptr) query_devices(16, devices, &count);
-    for (EGLint i = 0; i < count; ++i) {
-      const bool is_software =
-          query_string && has(query_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
-      (is_software ? software : found).push_back(get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
-    }
-  }
-  if (has(client, "EGL_MESA_platform_surfaceless")) {
-    found.push_back(get_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr));
-  }
-  found.insert(found.end(), software.begin(), software.end());
-  return found;
-}
 
 class EglContext final : public Context {
  public:
@@ -103,7 +66,10 @@ class EglContext final : public Context {
 
 std::unique_ptr<Context> makeHeadlessContext(bool debug) {
   std::string why = "OpenGL 4.5 is needed; found no EGL that draws without a display";
-  for (EGLDisplay display : displays()) {
+  std::array<EGLDisplay, kMostEglDisplays> displays{};
+  const int count = egl_displays(displays.data());
+  for (int i = 0; i < count; ++i) {
+    const EGLDisplay display = displays[static_cast<size_t>(i)];
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
       continue;
     try {

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "window/egl_displays.h"
+
 static inline void require(int met, const char* what) {
   if (met) return;
   fprintf(stderr, "%s\n", what);
@@ -25,9 +27,8 @@ static inline void* get_proc(void* user, const char* name) {
 
 static inline void make_context(GladGLContext* gl) {
   const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
-  EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-  if (display == EGL_NO_DISPLAY) display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-  require(eglInitialize(display, NULL, NULL) && eglBindAPI(EGL_OPENGL_API), "there is no EGL");
+  EGLDisplay display = egl_first_display();
+  require(display != EGL_NO_DISPLAY, "there is no EGL");
   EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
   require(context != EGL_NO_CONTEXT, "there is no OpenGL 4.5");
   require(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE,

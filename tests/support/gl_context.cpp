@@ -7,31 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "window/egl_displays.h"
+
 namespace rg::test {
 namespace {
-
-EGLDisplay openDisplay() {
-  const auto getPlatformDisplay =
-      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  if (!getPlatformDisplay) return eglGetDisplay(EGL_DEFAULT_DISPLAY);
-  EGLDisplay display = getPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-  if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
-  const auto queryDevices =
-      reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
-  std::array<EGLDeviceEXT, 8> devices{};
-  EGLint count = 0;
-  if (queryDevices) queryDevices(static_cast<EGLint>(devices.size()), devices.data(), &count);
-  for (EGLint i = 0; i < count; ++i) {
-    display = getPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<size_t>(i)], nullptr);
-    if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
-  }
-  return EGL_NO_DISPLAY;
-}
 
 // One display per process, never terminated: Mesa's own thread pools are set up only once, which keeps
 // LeakSanitizer quiet.
 EGLDisplay display() {
-  static EGLDisplay opened = openDisplay();
+  static EGLDisplay opened = egl_first_display();
   return opened;
 }
 
