@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace rg::rain {
 namespace {
@@ -54,8 +53,8 @@ glm::uvec2 packed(uint32_t volume, Votes far, Votes near) {
 }  // namespace
 
 float Tiler::tileSide_px(const glm::ivec4& viewport_px) {
-  constexpr int kSide_px = 32, kMost = 256;  // along a side of the picture: 8192 px
-  return static_cast<float>(std::max(kSide_px, std::max(viewport_px.z, viewport_px.w) / kMost));
+  constexpr int kSide_px = 32, kMost = 60;  // along a side of the picture: 1920 px
+  return static_cast<float>(std::max(kSide_px, (std::max(viewport_px.z, viewport_px.w) + kMost - 1) / kMost));
 }
 
 void Tiler::findSlopes(const shared::RainBeyond& beyond, std::span<const glm::vec4> planes) {
@@ -104,15 +103,59 @@ glm::uvec2 Tiler::wordsOf(uint32_t volume, int column, int row) const {
   return packed(volume, far, near);
 }
 
-void Tiler::addTo(std::vector<RainTile>& tiles, uint32_t volume) {
-  bounds_.clear();
-  for (int row = 0; row <= rows_; ++row) {
-    for (int column = 0; column <= columns_; ++column)
-      bounds_.push_back(boundAt(glm::vec2(column, row) * step_clip_));
+// Where a ray meets the volume it enters it before it leaves it: each plane near by, farther off than each
+// plane far off, and before the eye. Both are linear across the picture, so that each pair leaves half of it,
+// and a row of tiles is left an interval; a sliver too much, as a rounded edge must not lose a tile.
+Tiler::Reach Tiler::reachOf(int row) const {
+  const float low = static_cast<float>(row) * step_clip_.y, high = low + step_clip_.y;
+  float from = 0.0f, to = static_cast<float>(columns_) * step_clip_.x;
+  const auto leave = [&](float at_corner, float by_x, float by_y) {
+    const float most = at_corner + by_y * (by_y > 0.0f ? high : low);
+    if (by_x > 0.0f)
+      from = std::max(from, -most / by_x);
+    else if (by_x < 0.0f)
+      to = std::min(to, -most / by_x);
+    else if (!(most > 0.0f))
+      to = 0.0f;
+  };
+  for (const Slope& near : slopes_) {
+    if (!near.near) continue;
+    leave(near.at_corner, near.by_x, near.by_y);
+    for (const Slope& far : slopes_) {
+      if (!far.near) leave(near.at_corner - far.at_corner, near.by_x - far.by_x, near.by_y - far.by_y);
+    }
   }
+  constexpr float kSliver = 0.05f;  // of a tile
+  const float first = std::floor(from / step_clip_.x - kSliver), end = std::ceil(to / step_clip_.x + kSliver);
+  const auto columns = static_cast<float>(columns_);
+  return {static_cast<int>(std::clamp(first, 0.0f, columns)),
+          static_cast<int>(std::clamp(end, 0.0f, columns))};
+}
+
+void Tiler::findBounds() {
+  reach_.clear();
+  for (int row = 0; row < rows_; ++row) reach_.push_back(reachOf(row));
+  bounds_.resize(static_cast<size_t>((rows_ + 1) * (columns_ + 1)));
+  for (int row = 0; row <= rows_; ++row) {
+    Reach corners{columns_, 0};
+    for (const int beside : {row - 1, row}) {
+      if (beside < 0 || beside >= rows_) continue;
+      const Reach& tiles = reach_[static_cast<size_t>(beside)];
+      if (tiles.first >= tiles.end) continue;
+      corners = {std::min(corners.first, tiles.first), std::max(corners.end, tiles.end + 1)};
+    }
+    for (int column = corners.first; column < corners.end; ++column)
+      bounds_[static_cast<size_t>(row * (columns_ + 1) + column)] =
+          boundAt(glm::vec2(column, row) * step_clip_);
+  }
+}
+
+void Tiler::addTo(std::vector<RainTile>& tiles, uint32_t volume) {
+  findBounds();
   const std::optional<glm::uvec2> all = wordsOfAll(volume);
   for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
+    const Reach& reach = reach_[static_cast<size_t>(row)];
+    for (int column = reach.first; column < reach.end; ++column) {
       const Bound* below = &bounds_[static_cast<size_t>(row * (columns_ + 1) + column)];
       const Bound* above = below + columns_ + 1;
       const std::array<const Bound*, 4> corners{below, below + 1, above, above + 1};
@@ -167,32 +210,38 @@ void Tiler::cut(const glm::ivec4& viewport_px, const shared::RainBeyond& beyond,
   sort(beyond, pixel_slope, out);
 }
 
-// In the tile's middle, in steps of half a level. Near the axis the map shrinks to nothing.
-float Tiler::pixelLevel(const shared::RainBeyond& beyond, size_t tile, float pixel_slope) const {
+// In the tile's middle, in half levels. Near the axis the map shrinks to nothing.
+int Tiler::pixelLevel(const shared::RainBeyond& beyond, size_t tile, float pixel_slope) const {
   const auto columns = static_cast<size_t>(columns_);
   const glm::vec2 clip = (glm::vec2(tile % columns, tile / columns) + 0.5f) * step_clip_ - 1.0f;
   const vec3 ray = vec3(beyond.ray_middle) + clip.x * vec3(beyond.ray_right) + clip.y * vec3(beyond.ray_up);
   const float off_axis = glm::length(glm::cross(ray, vec3(beyond.axis)));  // times the ray's length
-  return 0.5f * std::round(2.0f * std::log2(pixel_slope / std::max(off_axis, 0.02f * glm::length(ray))));
+  return static_cast<int>(
+      std::lround(2.0f * std::log2(pixel_slope / std::max(off_axis, 0.02f * glm::length(ray)))));
 }
 
+// By kind and level, counted: there are few of both.
 void Tiler::sort(const shared::RainBeyond& beyond, float pixel_slope, Tiles& out) {
-  placed_.clear();
+  constexpr int kLevels = 64, kLeast = -48;  // of half levels: a pixel of 6e-8 to 180 radians
+  std::array<uint32_t, kTileKinds.size() * kLevels + 1> starts{};
+  keys_.clear();
   for (size_t i = 0; i < all_.size(); ++i) {
     const auto kind =
-        static_cast<size_t>(std::ranges::lower_bound(kTileKinds, counts_[i]) - kTileKinds.begin());
-    placed_.push_back({kind, i, pixelLevel(beyond, i, pixel_slope)});
+        static_cast<uint32_t>(std::ranges::lower_bound(kTileKinds, counts_[i]) - kTileKinds.begin());
+    const int level = std::clamp(pixelLevel(beyond, i, pixel_slope) - kLeast, 0, kLevels - 1);
+    keys_.push_back(kind * kLevels + static_cast<uint32_t>(level));
+    ++starts[keys_.back() + 1];
   }
-  std::ranges::sort(placed_, {}, [](const Placed& p) { return std::tuple(p.kind, p.pixel_level, p.tile); });
-  out.tiles.clear();
   out.runs.clear();
-  for (const Placed& p : placed_) {
-    const bool goes_on =
-        !out.runs.empty() && out.runs.back().kind == p.kind && out.runs.back().pixel_level == p.pixel_level;
-    if (!goes_on) out.runs.push_back({p.kind, p.pixel_level, static_cast<uint32_t>(out.tiles.size()), 0});
-    ++out.runs.back().count;
-    out.tiles.push_back(all_[p.tile]);
+  for (size_t key = 0; key + 1 < starts.size(); ++key) {
+    const uint32_t count = starts[key + 1];
+    starts[key + 1] += starts[key];
+    if (count == 0) continue;
+    const int level = static_cast<int>(key % kLevels) + kLeast;
+    out.runs.push_back({key / kLevels, 0.5f * static_cast<float>(level), starts[key], count});
   }
+  out.tiles.resize(all_.size());
+  for (size_t i = 0; i < all_.size(); ++i) out.tiles[starts[keys_[i]]++] = all_[i];
 }
 
 }  // namespace rg::rain

@@ -34,7 +34,7 @@ struct Tiles {
 // can know (five far off, three near by: no box has), those that bind it in most of the tile.
 class Tiler {
  public:
-  // 32 px, more where a viewport of absurd size would have too many.
+  // 32 px, more in large pictures: what is linear across a tile is a matter of angle, not of pixels.
   static float tileSide_px(const glm::ivec4& viewport_px);
   void cut(const glm::ivec4& viewport_px, const shared::RainBeyond& beyond,
            const shared::RainShelter& shelter, Tiles& out);
@@ -50,25 +50,28 @@ class Tiler {
     float at_corner, by_x, by_y;  // at clip (-1, -1), and from there on
     bool near;
   };
+  // Tiles of a row, from `first` to before `end`.
+  struct Reach {
+    int first = 0, end = 0;
+  };
   void findSlopes(const shared::RainBeyond& beyond, std::span<const glm::vec4> planes);
+  Reach reachOf(int row) const;
+  void findBounds();
   Bound boundAt(glm::vec2 from_corner) const;
   std::optional<glm::uvec2> wordsOfAll(uint32_t volume) const;
   glm::uvec2 wordsOf(uint32_t volume, int column, int row) const;
   void addTo(std::vector<shared::RainTile>& tiles, uint32_t volume);
-  float pixelLevel(const shared::RainBeyond& beyond, size_t tile, float pixel_slope) const;
+  int pixelLevel(const shared::RainBeyond& beyond, size_t tile, float pixel_slope) const;
   void sort(const shared::RainBeyond& beyond, float pixel_slope, Tiles& out);
 
   int columns_ = 0, rows_ = 0;
   glm::vec2 step_clip_{0.0f};
   std::vector<Slope> slopes_;     // of one volume
-  std::vector<Bound> bounds_;     // of it, at all corners
+  std::vector<Reach> reach_;      // of it, by row
+  std::vector<Bound> bounds_;     // of it, at the corners of the tiles it reaches
   std::vector<uint32_t> counts_;  // of volumes, by tile
   std::vector<shared::RainTile> all_;
-  struct Placed {
-    size_t kind, tile;
-    float pixel_level;
-  };
-  std::vector<Placed> placed_;
+  std::vector<uint32_t> keys_;  // of kind and level, by tile
 };
 
 }  // namespace rg::rain
