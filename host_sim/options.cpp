@@ -86,6 +86,8 @@ Options parseOptions(int argc, const char* const* argv, bool& done) {
   app.add_option("--budget", o.budget, "Hold the run to this budget file; exit code 4 when over");
   app.add_option("--update-hz", update_hz,
                  "How time is cut into plugin updates: a rate, or irregular; does not change the state");
+  app.add_flag("--gl-debug", o.gl_debug,
+               "Have the driver check every call and tell its errors in full: slower, on a GPU much");
   app.footer("Exit codes: 0 done, 1 failed, 2 wrong usage or input, 3 no OpenGL 4.5, 4 over budget.");
   try {
     app.parse(argc, argv);

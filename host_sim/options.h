@@ -14,6 +14,7 @@ struct Options {
   std::string scenario = "drive";
   std::filesystem::path environment, drops, car, road, video, out = "out", budget;
   bool headless = false;
+  bool gl_debug = false;
   glm::ivec2 size_px{1280, 720};
   double fps = 60.0;
   std::optional<double> seconds;

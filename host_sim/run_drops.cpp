@@ -94,7 +94,7 @@ int runDrops(const Options& options) {
   if (options.environment.empty()) throw InputError("--drops needs --environment FILE.hdr");
   const HdrImage hdr = loadHdr(options.environment);
   makeOutFolder(options.out);
-  const auto context = makeHeadlessContext();
+  const auto context = makeHeadlessContext(options.gl_debug);
   Renderer renderer(*context);
   renderer.setEnvironment(hdr.rgb, hdr.width_px, hdr.height_px);
   RainPlugin plugin("", options.seed.value_or(1));

@@ -28,7 +28,7 @@ int runHeadless(const Options& options) {
   const Scenario scenario = chosenScenario(options);
   Models models = loadModels(scenario);
   makeOutFolder(options.out);
-  const auto context = makeHeadlessContext();
+  const auto context = makeHeadlessContext(options.gl_debug);
   Stage stage(options, scenario, std::move(models), *context);
   const Budget budget = options.budget.empty()
                             ? Budget{}

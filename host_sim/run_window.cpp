@@ -41,7 +41,7 @@ class WindowRun {
  public:
   WindowRun(const Options& options, const Scenario& scenario, Models models)
       : options_(options),
-        window_(makeWindow("Rainglass", options.size_px)),
+        window_(makeWindow("Rainglass", options.size_px, options.gl_debug)),
         stage_(options, scenario, std::move(models), *window_),
         pilot_(stage_.simulation(), *window_),
         overlay_(*window_, window_->textScale()),

@@ -23,10 +23,16 @@ void Context::load(bool debug) {
   if (version < GLAD_MAKE_VERSION(4, 5)) {
     throw NoGl45("OpenGL 4.5 is needed; found OpenGL " + this->version() + " by " + rendererName());
   }
+  debug_ = debug;
   if (!debug) return;
   gl_.Enable(GL_DEBUG_OUTPUT);
   gl_.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   gl_.DebugMessageCallback(&Context::onMessage, errors_.get());
+}
+
+std::uint64_t Context::glErrors() const {
+  while (gl_.GetError() != GL_NO_ERROR) errors_->count += debug_ ? 0 : 1;
+  return errors_->count;
 }
 
 std::string Context::text(GLenum name) const {

@@ -27,9 +27,9 @@ class Context {
   const GladGLContext& gl() const { return gl_; }
   /// Loader for the plugin (rg_gl_info::get_proc with get_proc_user = this context).
   static void* getProc(void* context, const char* name);
-  /// GL errors the driver told since the context was made, by KHR_debug; their first texts go to standard
-  /// error.
-  std::uint64_t glErrors() const { return errors_->count; }
+  /// GL errors since the context was made. With `debug` all of them, told by the driver when they happen,
+  /// their first texts on standard error; else the kinds that happened. With the context current.
+  std::uint64_t glErrors() const;
   std::string vendor() const { return text(GL_VENDOR); }
   std::string rendererName() const { return text(GL_RENDERER); }
   std::string version() const { return text(GL_VERSION); }
@@ -49,11 +49,12 @@ class Context {
                                      const GLchar* text, const void* user);
 
   GladGLContext gl_{};
+  bool debug_ = false;
   std::unique_ptr<Errors> errors_ = std::make_unique<Errors>();
 };
 
 /// A context without display: a GPU by EGL's device platform, else Mesa's surfaceless platform (software).
 /// `debug` has the driver check and tell errors at once. Throws NoGl45.
-std::unique_ptr<Context> makeHeadlessContext(bool debug = true);
+std::unique_ptr<Context> makeHeadlessContext(bool debug);
 
 }  // namespace host

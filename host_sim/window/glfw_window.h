@@ -39,6 +39,6 @@ bool hasDisplay();
 
 /// `debug` has the driver check and tell errors. Throws NoGl45, or std::runtime_error when no window can be
 /// had at all.
-std::unique_ptr<Window> makeWindow(const std::string& title, glm::ivec2 size, bool debug = true);
+std::unique_ptr<Window> makeWindow(const std::string& title, glm::ivec2 size, bool debug);
 
 }  // namespace host

@@ -61,7 +61,7 @@ Scene twoBoxes() {
 }
 
 struct Drawn : testing::Test {
-  std::unique_ptr<Context> context = makeHeadlessContext();
+  std::unique_ptr<Context> context = makeHeadlessContext(true);
   Renderer renderer{*context};
   Target target{*context, kSize};
   Picture picture{*context, kSize};

@@ -21,7 +21,7 @@ TEST(CommandLine, helpNamesEveryOption) {
   EXPECT_EQ(run.exit_code, 0);
   for (const char* option :
        {"--scenario", "--environment", "--drops", "--headless", "--size", "--fps", "--seconds", "--seed",
-        "--car", "--road", "--set", "--camera", "--shots", "--video", "--out", "--budget", "--update-hz"}) {
+        "--car", "--road", "--set", "--camera", "--shots", "--video", "--out", "--budget", "--update-hz", "--gl-debug"}) {
     EXPECT_NE(run.out.find(option), std::string::npos) << option;
   }
 }

@@ -1,4 +1,4 @@
-// Runs the host_sim program as a user would.
+// Runs the host_sim program as a user would, with GL errors told.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 namespace testing_host {
 
 inline Outcome runHost(const std::string& arguments, const std::string& environment = "") {
-  return runProgram("host_sim", arguments, environment);
+  return runProgram("host_sim", arguments + " --gl-debug", environment);
 }
 
 inline nlohmann::json report(const std::filesystem::path& folder) {
