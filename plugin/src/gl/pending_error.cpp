@@ -53,7 +53,7 @@ void raise(const GladGLContext& gl, GLenum error) {
     case GL_INVALID_ENUM:
       return gl.Enable(0xFFFF);
     case GL_INVALID_VALUE:
-      return gl.Clear(0xFFFFFFFFu);
+      return gl.Viewport(0, 0, -1, -1);  // no clear: where nothing is bound to draw into, that is another error
     case GL_INVALID_OPERATION:
       return raiseInvalidOperation(gl);
     case GL_INVALID_FRAMEBUFFER_OPERATION:
