@@ -130,16 +130,16 @@ template <typename T>
 void expectAlike(const std::vector<T>& got, const std::vector<T>& expected, const char* what) {
   ASSERT_EQ(got.size(), expected.size());
   double got_pl = 0.0, expected_pl = 0.0;
-  size_t others = 0;
+  int others = 0;
   for (size_t i = 0; i < got.size(); ++i) {
     const auto a = static_cast<double>(got[i]), b = static_cast<double>(expected[i]);
     got_pl += a;
     expected_pl += b;
     others += std::abs(a - b) > 0.01 * std::abs(b) + 100.0 ? 1 : 0;
   }
-  std::printf("%s: %.6g of %.6g, %zu of %zu texels differ\n", what, got_pl, expected_pl, others, got.size());
+  std::printf("%s: %.6g of %.6g, %d of %zu texels differ\n", what, got_pl, expected_pl, others, got.size());
   EXPECT_NEAR(got_pl, expected_pl, 1e-3 * expected_pl) << what;
-  EXPECT_LT(others, got.size() / 50) << what;
+  EXPECT_LT(others, static_cast<int>(got.size()) / 50) << what;
 }
 
 // The GPU and the CPU run one text; on a GL that rounds as the CPU does their integers agree to the last one,
