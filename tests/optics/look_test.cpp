@@ -186,8 +186,8 @@ TEST_F(Look, aPaneCutIntoTilesShowsTheSame) {
         others += glm::distance(tiled.at(x, y), whole[k].at(x, y)) > 0.02f ? 1 : 0;
     }
     // Places on the glass are rounded otherwise in small triangles: a check's edge may fall to the other
-    // side.
-    EXPECT_LT(others, 640 * 360 / 1000);
+    // side. (llvmpipe: 124 of them, an NVIDIA H200: 322.)
+    EXPECT_LT(others, 640 * 360 / 500);
   }
 }
 

@@ -10,24 +10,42 @@ using glm::vec3;
 using shared::kRainNoPlane, shared::RainTile;
 
 constexpr uint32_t kNoPlanes = kRainNoPlane | kRainNoPlane << 6 | kRainNoPlane << 12 | kRainNoPlane << 18;
-constexpr int kSamples = 5;  // along a tile's side, where its corners do not agree
+// Where a tile's corners do not agree: of its sides, the middles that are asked too, and its own.
+constexpr std::array<glm::vec2, 5> kMiddles{
+    {{0.5f, 0.5f}, {0.5f, 0.0f}, {0.0f, 0.5f}, {1.0f, 0.5f}, {0.5f, 1.0f}}};
 
-// Planes by how often they bind.
+// Planes by how often they bind; few do in one tile.
 class Votes {
  public:
   void add(uint32_t plane) {
-    if (plane != kRainNoPlane) ++count_[plane];
+    if (plane == kRainNoPlane) return;
+    const auto known = std::find(planes_.begin(), planes_.begin() + size_, plane);
+    const auto at = static_cast<size_t>(known - planes_.begin());
+    if (known == planes_.begin() + size_) {
+      if (size_ == static_cast<std::ptrdiff_t>(planes_.size())) return;
+      planes_[at] = plane;
+      ++size_;
+    }
+    ++counts_[at];
   }
-  // The one with the most votes, which are taken from it.
+  // The one with the most votes, which are taken from it; of equals the first plane.
   uint32_t next() {
-    const auto most = std::ranges::max_element(count_);
-    if (*most == 0) return kRainNoPlane;
-    *most = 0;
-    return static_cast<uint32_t>(most - count_.begin());
+    size_t most = 0;
+    for (size_t i = 1; i < static_cast<size_t>(size_); ++i) {
+      const bool more =
+          counts_[i] > counts_[most] || (counts_[i] == counts_[most] && planes_[i] < planes_[most]);
+      most = more ? i : most;
+    }
+    if (counts_[most] == 0) return kRainNoPlane;
+    counts_[most] = 0;
+    return planes_[most];
   }
 
  private:
-  std::array<int, kRainNoPlane> count_{};
+  // As many as are asked: by a tile's corners and middles.
+  std::array<uint32_t, 4 + kMiddles.size()> planes_{};
+  std::array<int, 4 + kMiddles.size()> counts_{};
+  std::ptrdiff_t size_ = 0;
 };
 
 void put(uint32_t& word, int shift, uint32_t plane) {
@@ -90,39 +108,51 @@ std::optional<glm::uvec2> Tiler::wordsOfAll(uint32_t volume) const {
   return packed(volume, far, near);
 }
 
-glm::uvec2 Tiler::wordsOf(uint32_t volume, int column, int row) const {
+glm::uvec2 Tiler::wordsOf(uint32_t volume, int column, int row,
+                          const std::array<const Bound*, 4>& corners) const {
   Votes far, near;
-  for (int y = 0; y < kSamples; ++y) {
-    for (int x = 0; x < kSamples; ++x) {
-      const glm::vec2 in_tile = glm::vec2(x, y) / static_cast<float>(kSamples - 1);
-      const Bound bound = boundAt((glm::vec2(column, row) + in_tile) * step_clip_);
-      far.add(bound.far);
-      near.add(bound.near);
-    }
-  }
+  const auto vote = [&](const Bound& bound) {
+    far.add(bound.far);
+    near.add(bound.near);
+  };
+  for (const Bound* corner : corners) vote(*corner);
+  for (const glm::vec2& in_tile : kMiddles) vote(boundAt((glm::vec2(column, row) + in_tile) * step_clip_));
   return packed(volume, far, near);
 }
 
 // Where a ray meets the volume it enters it before it leaves it: each plane near by, farther off than each
-// plane far off, and before the eye. Both are linear across the picture, so that each pair leaves half of it,
-// and a row of tiles is left an interval; a sliver too much, as a rounded edge must not lose a tile.
-Tiler::Reach Tiler::reachOf(int row) const {
-  const float low = static_cast<float>(row) * step_clip_.y, high = low + step_clip_.y;
-  float from = 0.0f, to = static_cast<float>(columns_) * step_clip_.x;
+// plane far off, and before the eye. Both are linear across the picture, so each pair leaves a half of it:
+// positive.
+bool Tiler::findHalves() {
+  halves_.clear();
+  const glm::vec2 size = glm::vec2(columns_, rows_) * step_clip_;
+  bool seen = true;
   const auto leave = [&](float at_corner, float by_x, float by_y) {
-    const float most = at_corner + by_y * (by_y > 0.0f ? high : low);
-    if (by_x > 0.0f)
-      from = std::max(from, -most / by_x);
-    else if (by_x < 0.0f)
-      to = std::min(to, -most / by_x);
-    else if (!(most > 0.0f))
-      to = 0.0f;
+    halves_.push_back({at_corner, by_y, -1.0f / by_x});
+    seen = seen && at_corner + std::max(by_x, 0.0f) * size.x + std::max(by_y, 0.0f) * size.y > 0.0f;
   };
   for (const Slope& near : slopes_) {
     if (!near.near) continue;
     leave(near.at_corner, near.by_x, near.by_y);
     for (const Slope& far : slopes_) {
       if (!far.near) leave(near.at_corner - far.at_corner, near.by_x - far.by_x, near.by_y - far.by_y);
+    }
+  }
+  return seen;
+}
+
+// All halves leave a row of tiles an interval; a sliver too much, as a rounded edge must not lose a tile.
+Tiler::Reach Tiler::reachOf(int row) const {
+  const float low = static_cast<float>(row) * step_clip_.y, high = low + step_clip_.y;
+  float from = 0.0f, to = static_cast<float>(columns_) * step_clip_.x;
+  for (const Half& half : halves_) {
+    const float most = half.at_corner + half.by_y * (half.by_y > 0.0f ? high : low);
+    if (!std::isfinite(half.to_edge)) {
+      if (!(most > 0.0f)) return {};
+    } else if (half.to_edge < 0.0f) {
+      from = std::max(from, most * half.to_edge);
+    } else {
+      to = std::min(to, most * half.to_edge);
     }
   }
   constexpr float kSliver = 0.05f;  // of a tile
@@ -151,6 +181,7 @@ void Tiler::findBounds() {
 }
 
 void Tiler::addTo(std::vector<RainTile>& tiles, uint32_t volume) {
+  if (!findHalves()) return;
   findBounds();
   const std::optional<glm::uvec2> all = wordsOfAll(volume);
   for (int row = 0; row < rows_; ++row) {
@@ -174,7 +205,7 @@ void Tiler::addTo(std::vector<RainTile>& tiles, uint32_t volume) {
       ++counts_[tile];
       const glm::uvec2 words = agreed ? packed(volume, one.far, one.near)
                                : all  ? *all
-                                      : wordsOf(volume, column, row);
+                                      : wordsOf(volume, column, row, corners);
       glm::uvec4& both = tiles[tile].bounds[slot / 2];
       if (slot % 2 == 0) {
         both.x = words.x;

@@ -55,11 +55,17 @@ class Tiler {
     int first = 0, end = 0;
   };
   void findSlopes(const shared::RainBeyond& beyond, std::span<const glm::vec4> planes);
+  // Half of the picture: where `at_corner` and what is added across it is above 0.
+  struct Half {
+    float at_corner, by_y;
+    float to_edge;  // across, of what is there; not finite where nothing changes that way
+  };
+  bool findHalves();  // false: the volume is not in the picture
   Reach reachOf(int row) const;
   void findBounds();
   Bound boundAt(glm::vec2 from_corner) const;
   std::optional<glm::uvec2> wordsOfAll(uint32_t volume) const;
-  glm::uvec2 wordsOf(uint32_t volume, int column, int row) const;
+  glm::uvec2 wordsOf(uint32_t volume, int column, int row, const std::array<const Bound*, 4>& corners) const;
   void addTo(std::vector<shared::RainTile>& tiles, uint32_t volume);
   int pixelLevel(const shared::RainBeyond& beyond, size_t tile, float pixel_slope) const;
   void sort(const shared::RainBeyond& beyond, float pixel_slope, Tiles& out);
@@ -67,6 +73,7 @@ class Tiler {
   int columns_ = 0, rows_ = 0;
   glm::vec2 step_clip_{0.0f};
   std::vector<Slope> slopes_;     // of one volume
+  std::vector<Half> halves_;      // of it
   std::vector<Reach> reach_;      // of it, by row
   std::vector<Bound> bounds_;     // of it, at the corners of the tiles it reaches
   std::vector<uint32_t> counts_;  // of volumes, by tile
