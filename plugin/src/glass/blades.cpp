@@ -10,7 +10,8 @@
 namespace rg::glass {
 namespace {
 constexpr double kMostTurn = 2.0;
-constexpr double kAbout = 1.1;  // texels: so near to any place there are three or four texels' middles
+constexpr double kAbout = 1.1;    // texels: so near to any place there are three or four texels' middles
+constexpr double kWide_m = 3e-3;  // drops of a greater radius are few
 }  // namespace
 
 void Blades::set(uint32_t id, const WiperInfo& info, const PaneMap& map, FilmLink& film) {
@@ -88,10 +89,16 @@ void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_
   world.film.sweep(wiper.swept(), wiper.ranges(sweep), wiper.slot() * shared::kBladeSegments,
                    direction < 0.0);
   const SweptStrip strip = wiper.stripOf(sweep);
+  const std::vector<bool> tiles_near = wiper.tilesNear(strip, kWide_m);
+  const double tiles_per_m = 1.0 / (world.map.grid().texel_m * shared::kTileSize);
   const std::vector<Drop>& all = drops.all();
   for (size_t slot = 0; slot < all.size(); ++slot) {
     const Drop& drop = all[slot];
-    if (drop.volume_pl > 0 && wiper.mayCross(drop.texel, strip, static_cast<double>(drop.base_radius_m)))
+    if (drop.volume_pl <= 0) continue;
+    const glm::ivec2 tile(drop.place_m * tiles_per_m);
+    const bool near = tiles_near[static_cast<size_t>(tile.y * world.map.tileCount().x + tile.x)];
+    const auto radius_m = static_cast<double>(drop.base_radius_m);
+    if ((near || radius_m > kWide_m) && wiper.mayCross(drop.texel, strip, radius_m))
       meet(world, drops, wiper, sweep, static_cast<int>(slot));
   }
 }

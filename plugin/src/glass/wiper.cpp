@@ -23,6 +23,13 @@ double bladeDirection_rad(const WiperInfo& info, double angle_rad) {
   return info.blade_angle_rad + (1.0 + info.blade_turn) * angle_rad;
 }
 
+bool reaches(const SweptStrip& strip, const glm::dvec2& place_m, double radius_m) {
+  const double near_m = strip.near_m + radius_m;
+  const glm::dvec2 d = place_m - strip.middle_m;
+  return std::abs(cross(strip.along, d)) <= near_m &&
+         std::abs(glm::dot(strip.along, d)) <= strip.half_m + near_m;
+}
+
 // Where f changes its sign between a and b: halving until doubles end.
 template <typename F>
 double root(const F& f, double a, double b) {
@@ -84,6 +91,29 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
   while (piece < starts_.size()) starts_[piece++] = angles_.size();
   starts_.push_back(angles_.size());
   swept_ = std::move(swept);
+  findTiles(map);
+}
+
+void Wiper::findTiles(const PaneMap& map) {
+  const int columns = map.grid().size.x;
+  const auto eachTexel = [&](const auto& visit) {
+    for (int i = 0; i < map.texelCount(); ++i) {
+      const glm::ivec2 tile = glm::ivec2(i % columns, i / columns) / shared::kTileSize;
+      if (map.inside(i))
+        visit(static_cast<size_t>(tile.y * map.tileCount().x + tile.x),
+              glm::dvec2(in_plane_m_[static_cast<size_t>(i)]));
+    }
+  };
+  tiles_.resize(static_cast<size_t>(map.tileCount().x * map.tileCount().y));
+  std::vector<int> counts(tiles_.size());
+  eachTexel([&](size_t tile, const glm::dvec2& place_m) {
+    tiles_[tile].middle_m += place_m;
+    ++counts[tile];
+  });
+  for (size_t tile = 0; tile < tiles_.size(); ++tile) tiles_[tile].middle_m /= std::max(counts[tile], 1);
+  eachTexel([&](size_t tile, const glm::dvec2& place_m) {
+    tiles_[tile].radius_m = std::max(tiles_[tile].radius_m, glm::distance(place_m, tiles_[tile].middle_m));
+  });
 }
 
 glm::dvec2 Wiper::inPlane(const glm::dvec3& vehicle_m) const {
@@ -180,10 +210,15 @@ SweptStrip Wiper::stripOf(const Sweep& sweep) const {
 }
 
 bool Wiper::mayCross(int texel, const SweptStrip& strip, double radius_m) const {
-  const double near_m = strip.near_m + radius_m;
-  const glm::dvec2 d = glm::dvec2(in_plane_m_[static_cast<size_t>(texel)]) - strip.middle_m;
-  return std::abs(cross(strip.along, d)) <= near_m &&
-         std::abs(glm::dot(strip.along, d)) <= strip.half_m + near_m;
+  return reaches(strip, glm::dvec2(in_plane_m_[static_cast<size_t>(texel)]), radius_m);
+}
+
+std::vector<bool> Wiper::tilesNear(const SweptStrip& strip, double radius_m) const {
+  std::vector<bool> near;
+  near.reserve(tiles_.size());
+  for (const Circle& tile : tiles_)
+    near.push_back(tile.radius_m >= 0.0 && reaches(strip, tile.middle_m, radius_m + tile.radius_m));
+  return near;
 }
 
 std::optional<double> Wiper::ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const {

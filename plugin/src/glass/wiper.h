@@ -66,6 +66,8 @@ class Wiper {
   SweptStrip stripOf(const Sweep& sweep) const;
   // A place that near to this texel's middle may be crossed: drops elsewhere need no closer look.
   bool mayCross(int texel, const SweptStrip& strip, double radius_m) const;
+  // By tile of the map: whether that may be so of any texel on it.
+  std::vector<bool> tilesNear(const SweptStrip& strip, double radius_m) const;
 
   // How far the blade has to turn, from where a sweep begins that meets something at `met_rad`, to this place
   // beside that; none: it does not come by. Less than 0: it has passed it.
@@ -82,6 +84,7 @@ class Wiper {
   double turnsAt_m(int segment, double angle_rad) const;
 
  private:
+  void findTiles(const PaneMap& map);
   glm::dvec2 inPlane(const glm::dvec3& vehicle_m) const;
   // Angles at which the blade's line, endless, passes a place of its plane.
   std::vector<double> anglesOf(const glm::dvec2& place_m) const;
@@ -94,6 +97,11 @@ class Wiper {
   std::vector<double> angles_;         // of swept_
   std::vector<size_t> starts_;         // of each piece's part of swept_, pass by pass; and its end
   std::vector<glm::vec2> in_plane_m_;  // of texels, from the pivot, for mayCross
+  struct Circle {
+    glm::dvec2 middle_m{0.0};
+    double radius_m = -1.0;  // less than 0: nothing lies in it
+  };
+  std::vector<Circle> tiles_;  // round the texels on each of the map's tiles
   std::vector<std::pair<double, double>> segment_angles_;
 };
 
