@@ -113,6 +113,7 @@ class Shelter {
     BodyPath path;
     bool known = false;
     double radius_m = 0.0;  // about its origin
+    Box box;                // of all its volumes, in its frame
     std::vector<uint32_t> volumes;
   };
 
