@@ -137,25 +137,20 @@ RG_FN void setLevelling(RG_INOUT(FilmStepInfo) info, float pressing_mps2, float 
   if (weight < 0.0f) info.heavy_m3 = min(info.heavy_m3, info.tense_m3);
 }
 
+// Without branches: software GL runs through them all, and keeps what they set in memory.
 RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmCell cell;
   cell.volume_pl = volume_pl;
   cell.h_m = thickness_m(volume_pl, metric);
-  cell.x_pl = 0;
-  cell.y_pl = 0;
-  cell.x_both_pl = 0;
-  cell.y_both_pl = 0;
-  cell.hollowness = 0.0f;
-  cell.slack = 0.0f;
-  cell.mainly_pl = 0.0f;
-  cell.entry_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
+  bool wet = cell.h_m >= info.pin_m;
   // Two fronts that meet over a texel take it between them.
-  if (volume_pl < 0 || cell.h_m >= info.pin_m || 2.0f * thickness_m(around.gap_pl, metric) >= cell.entry_m) cell.entry_m = 0.0f;
-  if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
+  float front_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
+  cell.entry_m = volume_pl < 0 || wet || 2.0f * thickness_m(around.gap_pl, metric) >= front_m ? 0.0f : front_m;
   // Exact: both sides of a face work a texel out for themselves, and must agree to the picolitre.
-  RG_EXACT vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), u = fallen + blown;
-  if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
-  RG_EXACT float per_cells = kFilmStep_s / (metric.x * metric.y);
+  RG_EXACT vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), straight = fallen + blown;
+  RG_EXACT vec2 u = thickness_m(around.least_pl, metric) < info.pin_m ? turned(straight, kMostTurn * unevenness(glass)) : straight;
+  // What is not wet goes nowhere.
+  RG_EXACT float per_cells = volume_pl > 0 && wet ? kFilmStep_s / (metric.x * metric.y) : 0.0f;
   RG_EXACT float x_cells = metric.y * per_cells, y_cells = metric.x * per_cells, cx = u.x * x_cells, cy = u.y * y_cells;
   RG_EXACT float cx_both = counterflow(fallen.x, blown.x) * x_cells, cy_both = counterflow(fallen.y, blown.y) * y_cells;
   RG_EXACT float courant = abs(cx) + abs(cy) + 2.0f * (cx_both + cy_both);

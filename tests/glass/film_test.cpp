@@ -111,6 +111,23 @@ std::string told(const shared::FilmTile& tile) {
   return text;
 }
 
+// Shared out among invocations as software GL and as a GPU likes it.
+std::vector<std::unique_ptr<glass::FilmGl>> filmsOf(const GladGLContext& gl, const glass::PaneSim& sim) {
+  std::vector<std::unique_ptr<glass::FilmGl>> films;
+  for (const bool software : {true, false}) {
+    const auto programs = std::make_shared<glass::FilmPrograms>(gl, glass::FilmKernel::none, software);
+    films.push_back(std::make_unique<glass::FilmGl>(gl, programs, sim.map(), sim.unevenness()));
+  }
+  return films;
+}
+
+glass::FilmReport reportOf(glass::FilmGl& film, const glass::FilmOrder& order) {
+  film.run({order});
+  std::vector<glass::FilmReport> reports = film.collect(true);
+  EXPECT_EQ(reports.size(), 1u);
+  return std::move(reports.at(0));
+}
+
 // The GPU and the CPU run one text; their integers agree to the last one, orders of all kinds included.
 TEST_F(Film, isTheSameOnGpuAndCpu) {
   const Mesh mesh = windscreen(0.5, 0.4, rad(30), 0.03);
@@ -123,8 +140,7 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
   const WiperMotor motor(3, rad(20), rad(150), 70.0);
   sim.attachFilm();
   FilmReference reference(sim.map(), sim.unevenness());
-  const auto programs = glass::makeFilmPrograms(gl);
-  glass::FilmGl gpu(gl, programs, sim.map(), sim.unevenness());
+  const auto films = filmsOf(gl, sim);
   int64_t took = 0, swept = 0, left = 0, wiped = 0, events = 0;
   for (int64_t index = 1; index <= 480; ++index) {
     glass::PaneTick tick = weather(100.0, 20.0, 0.5);
@@ -134,21 +150,19 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
                                   static_cast<double>(index) * kTickSeconds);
     sim.submit(tick);
     for (const glass::FilmOrder& order : sim.fetchOrders()) {
-      std::vector<glass::FilmOrder> copy{order};
-      gpu.run(std::move(copy));
-      const std::vector<glass::FilmReport> reports = gpu.collect(true);
-      ASSERT_EQ(reports.size(), 1u);
       glass::FilmReport expected = reference.run(order);
-      const glass::FilmReport& got = reports[0];
-      ASSERT_EQ(got.taken_pl, expected.taken_pl);
-      ASSERT_EQ(got.ridge_pl, expected.ridge_pl);
-      ASSERT_EQ(got.wiped_pl, expected.wiped_pl);
-      for (size_t t = 0; t < got.tiles.size(); ++t) {
-        ASSERT_EQ(std::memcmp(&got.tiles[t], &expected.tiles[t], sizeof(shared::FilmTile)), 0)
-            << "tile " << t << " step " << order.step << ": " << told(got.tiles[t]) << ", not "
-            << told(expected.tiles[t]);
-        events += expected.tiles[t].event_texel >= 0 ? 1 : 0;
+      for (const auto& film : films) {
+        const glass::FilmReport got = reportOf(*film, order);
+        ASSERT_EQ(got.taken_pl, expected.taken_pl);
+        ASSERT_EQ(got.ridge_pl, expected.ridge_pl);
+        ASSERT_EQ(got.wiped_pl, expected.wiped_pl);
+        for (size_t t = 0; t < got.tiles.size(); ++t) {
+          ASSERT_EQ(std::memcmp(&got.tiles[t], &expected.tiles[t], sizeof(shared::FilmTile)), 0)
+              << "tile " << t << " step " << order.step << ": " << told(got.tiles[t]) << ", not "
+              << told(expected.tiles[t]);
+        }
       }
+      for (const shared::FilmTile& tile : expected.tiles) events += tile.event_texel >= 0 ? 1 : 0;
       for (const int v : expected.taken_pl) took += v;
       for (const shared::SweptRange& range : order.sweep_ranges) swept += range.count;
       left += static_cast<int64_t>(order.leaves.size());
@@ -156,8 +170,10 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
       sim.deliver(std::move(expected));
     }
   }
-  EXPECT_EQ(gpu.readFilm(), reference.film);
-  EXPECT_EQ(gpu.readBeads(), reference.beads);
+  for (const auto& film : films) {
+    EXPECT_EQ(film->readFilm(), reference.film);
+    EXPECT_EQ(film->readBeads(), reference.beads);
+  }
   // All kinds of orders were there.
   EXPECT_GT(took, 0);
   EXPECT_GT(swept, 0);
@@ -172,7 +188,7 @@ TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
   const Mesh mesh = windscreen(0.3, 0.2, rad(30));
   glass::PaneSim sim(filmOnly(mesh), 1, 7);
   FilmReference reference(sim.map(), sim.unevenness());
-  glass::FilmGl gpu(gl, glass::makeFilmPrograms(gl), sim.map(), sim.unevenness());
+  const auto films = filmsOf(gl, sim);
   shared::FilmStepInfo info{};
   info.columns = sim.map().grid().size.x;
   info.rows = sim.map().grid().size.y;
@@ -195,12 +211,12 @@ TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
       order.adds.push_back({middle + static_cast<int>(h >> 8) % 40, h % 2 == 0 ? 2'000'000 : 20'000});
       if (order.adds[1].texel == middle) order.adds.pop_back();
     }
-    std::vector<glass::FilmOrder> copy{order};
-    gpu.run(std::move(copy));
-    ASSERT_EQ(gpu.collect(true).size(), 1u);
     reference.run(order);
-    ASSERT_EQ(gpu.readFilm(), reference.film) << "step " << step;
-    ASSERT_EQ(gpu.readBeads(), reference.beads) << "step " << step;
+    for (const auto& film : films) {
+      reportOf(*film, order);
+      ASSERT_EQ(film->readFilm(), reference.film) << "step " << step;
+      ASSERT_EQ(film->readBeads(), reference.beads) << "step " << step;
+    }
   }
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "gl/loader.h"
+
 namespace rg::glass {
 namespace {
 
@@ -44,9 +46,11 @@ struct ReportLayout {
   size_t ridges, taken, bytes;
 };
 
-std::vector<std::string> defines(FilmKernel leaky) {
-  if (leaky == FilmKernel::none) return {};
-  return {"RG_LEAK " + std::to_string(static_cast<int>(leaky))};
+std::vector<std::string> defines(FilmKernel leaky, bool software) {
+  std::vector<std::string> all;
+  if (software) all.emplace_back("RG_SOFTWARE_GL");
+  if (leaky != FilmKernel::none) all.push_back("RG_LEAK " + std::to_string(static_cast<int>(leaky)));
+  return all;
 }
 
 template <typename T>
@@ -76,16 +80,17 @@ std::vector<uint32_t> stripCodes(const PaneMap& map, const UnevenGlass& glass) {
 
 }  // namespace
 
-FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky)
-    : change(gl, {"glass/film_change.comp"}, defines(leaky)),
-      sweep(gl, {"glass/film_sweep.comp"}, defines(leaky)),
-      leave(gl, {"glass/film_leave.comp"}, defines(leaky)),
-      wake(gl, {"glass/film_wake.comp"}),
-      dry(gl, {"glass/film_dry.comp"}),
-      flow(gl, {"glass/film_flow.comp"}, defines(leaky)) {}
+FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software)
+    : change(gl, {"glass/film_change.comp"}, defines(leaky, software)),
+      sweep(gl, {"glass/film_sweep.comp"}, defines(leaky, software)),
+      leave(gl, {"glass/film_leave.comp"}, defines(leaky, software)),
+      wake(gl, {"glass/film_wake.comp"}, defines(leaky, software)),
+      dry(gl, {"glass/film_dry.comp"}, defines(leaky, software)),
+      flow(gl, {"glass/film_flow.comp"}, defines(leaky, software)) {}
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
-  return std::make_shared<FilmPrograms>(gl, leaky);
+  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+  return std::make_shared<FilmPrograms>(gl, leaky, renderer != nullptr && gl::isSoftwareRenderer(renderer));
 }
 
 void abandonFilmPrograms(FilmPrograms& p) {

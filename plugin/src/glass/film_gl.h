@@ -19,7 +19,8 @@ namespace rg::glass {
 
 class FilmPrograms {
  public:
-  FilmPrograms(const GladGLContext& gl, FilmKernel leaky);
+  // `software`: shared out among invocations as suits a CPU; what they work out is the same.
+  FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software);
   gl::Program change, sweep, leave, wake, dry, flow;
 };
 
