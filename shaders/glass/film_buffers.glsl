@@ -25,21 +25,20 @@ layout(location = 1) uniform int turn; // of two, one for every other step
 // How many tiles a step looks at, and the command for as many groups as they need: in rows, as GL promises no more than 65535 along an axis.
 struct AwakeTiles { uint groups_x, groups_y, groups_z, number; };
 const uint kGroupsInRow = 32768u;
-uint listedAt(uvec3 group, uint tiles_in_group, uint tile) { return (group.y * kGroupsInRow + group.x) * tiles_in_group + tile; }
+uint groupInRows() { return gl_WorkGroupID.y * kGroupsInRow + gl_WorkGroupID.x; }
 
-// Invocations walk over a tile, each over so many strips side by side and rows. A long way over wide rows shares most: it suits software GL, whose
-// groups need no more than the eight invocations it runs at once. A GPU wants many, and few registers for each.
+// A group takes four tiles; its invocations walk over them, each over so many strips side by side and rows. A long way over wide rows shares most: that
+// suits software GL, which runs eight at once, and these are a group. A GPU wants many, with few registers each.
 #ifdef RG_SOFTWARE_GL
-const int kWalkStrips = 4, kWalkRows = 8, kGroup = 8;
+const int kWalkStrips = 4, kWalkRows = 8;
 #else
-const int kWalkStrips = 1, kWalkRows = 4, kGroup = 64;
+const int kWalkStrips = 1, kWalkRows = 4;
 #endif
 const int kStrips = kTileSize / kStripSize; // of a tile's row
-const int kWalks = kStrips / kWalkStrips * (kTileSize / kWalkRows);
-const uint kTilesInGroup = uint(kGroup / kWalks);
-// Tiles dry by strips of their own.
-const int kDryWalks = kStrips * (kTileSize / kWalkRows);
-const uint kTilesInDryGroup = uint(kGroup / kDryWalks);
+const int kWalksAcross = kStrips / kWalkStrips, kWalks = kWalksAcross * (kTileSize / kWalkRows);
+const int kTilesInGroup = 4, kGroup = kTilesInGroup * kWalks;
+// Tiles dry by single strips.
+const int kDryWalks = kStrips * (kTileSize / kWalkRows), kTilesInDryGroup = kGroup / kDryWalks;
 
 int tilesAcross() { return (info.columns + kTileSize - 1) / kTileSize; }
 

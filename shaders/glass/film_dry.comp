@@ -51,7 +51,7 @@ Left dryStrips(int tile, int lane, bool asleep) {
 
 void main() {
   int walk = int(gl_LocalInvocationIndex), tile_in_group = walk / kDryWalks, lane = walk % kDryWalks;
-  uint place = listedAt(gl_WorkGroupID, kTilesInDryGroup, uint(tile_in_group));
+  uint place = groupInRows() * uint(kTilesInDryGroup) + uint(tile_in_group);
   bool here = place < drying[turn].number;
   int entry = here ? listed[uint(count) + place] : 0, t = max(entry, -1 - entry);
   if (lane == 0) left_on[tile_in_group] = Left(0, 0u, 0u, 0u);

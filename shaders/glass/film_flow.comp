@@ -19,7 +19,6 @@ layout(std430, binding = 4) readonly buffer Awake {
 };
 
 const int kColumns = kWalkStrips * kStripSize;
-const int kWalksAcross = kStrips / kWalkStrips;
 
 // What an invocation saw on its way.
 struct Walk {
@@ -210,7 +209,7 @@ Walk walk(ivec2 tile, int lane) {
 
 // -1: the last group has more walks than there are.
 int listedTile() {
-  uint place = listedAt(gl_WorkGroupID, kTilesInGroup, gl_LocalInvocationIndex / uint(kWalks));
+  uint place = groupInRows() * uint(kTilesInGroup) + gl_LocalInvocationIndex / uint(kWalks);
   return place < awake[turn].number ? listed[place] : -1;
 }
 

@@ -27,14 +27,14 @@ void main() {
   if (driesNow(uint(t), info) && (looked_at || (uint(states[t].film_low_pl | states[t].film_high) | states[t].beads_pl) != 0u)) {
     uint place = atomicAdd(drying[turn].number, 1u);
     listed[uint(count) + place] = looked_at ? t : -1 - t;
-    AwakeTiles groups = groupsUpTo(place / kTilesInDryGroup);
+    AwakeTiles groups = groupsUpTo(place / uint(kTilesInDryGroup));
     atomicMax(drying[turn].groups_x, groups.groups_x);
     atomicMax(drying[turn].groups_y, groups.groups_y);
   }
   if (looked_at) {
     uint place = atomicAdd(awake[turn].number, 1u);
     listed[place] = t;
-    AwakeTiles groups = groupsUpTo(place / kTilesInGroup);
+    AwakeTiles groups = groupsUpTo(place / uint(kTilesInGroup));
     atomicMax(awake[turn].groups_x, groups.groups_x);
     atomicMax(awake[turn].groups_y, groups.groups_y);
   } else {
