@@ -151,6 +151,7 @@ class Copy {
   Copy(const GladGLContext& gl, const glass::PaneMap& map, bool software)
       : gl_(gl),
         tiles_(map.tileCount()),
+        tiles_in_group_(software ? 8 : 4),  // as film_buffers.glsl has it
         program_(gl, {"copy.comp"},
                  software ? std::vector<std::string>{"RG_SOFTWARE_GL"} : std::vector<std::string>{}, source),
         from_(gl, bytes(map)),
@@ -171,7 +172,7 @@ class Copy {
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, to_beads_.name());
     program_.use();
     program_.set(4, tiles_);
-    gl_.DispatchCompute((tiles_.x * tiles_.y + kTilesInGroup - 1) / kTilesInGroup, 1, 1);
+    gl_.DispatchCompute((tiles_.x * tiles_.y + tiles_in_group_ - 1) / tiles_in_group_, 1, 1);
     gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
@@ -182,7 +183,6 @@ class Copy {
   static std::string_view source(std::string_view path) {
     return path == "copy.comp" ? kText : gl::shaderSource(path);
   }
-  static constexpr GLuint kTilesInGroup = 4;  // as there
   static constexpr std::string_view kText = R"(#include "glass/film_buffers.glsl"
 layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer from;
@@ -195,15 +195,18 @@ void main() {
   if (t >= tiles_across * int(tiles.y)) return;
   int y = t / tiles_across * kTileSize + lane / kWalksAcross * kWalkRows, across = tiles_across * kStrips;
   int first = y * across + t % tiles_across * kStrips + lane % kWalksAcross * kWalkStrips;
-  for (int row = 0; row < kWalkRows; ++row, first += across) {
+  int row = 0;
+  do {
     for (int strip = first; strip < first + kWalkStrips; ++strip) {
       to[strip] = imageLoad(from, strip);
       to_beads[strip] = imageLoad(from_beads, strip);
     }
-  }
+    first += across;
+  } while (++row < kWalkRows);
 })";
   const GladGLContext& gl_;
   glm::uvec2 tiles_;
+  GLuint tiles_in_group_;
   gl::Program program_;
   gl::Buffer from_, to_;
   gl::BufferTexture from_strips_;

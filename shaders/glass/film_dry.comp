@@ -24,16 +24,19 @@ Left dryStrips(int tile, int lane, bool asleep) {
   int low = corner.y * (tilesAcross() + 1) + corner.x, high = low + tilesAcross() + 1;
   vec4 m[4] = vec4[4](imageLoad(metric, low), imageLoad(metric, low + 1), imageLoad(metric, high), imageLoad(metric, high + 1));
   Left sums = Left(0, 0u, 0u, 0u);
-  for (int row = first; row < first + kWalkRows; ++row) {
+  int row = first;
+  do {
     int strip = (corner.y * kTileSize + row) * tilesAcross() * kStrips + corner.x * kStrips + column;
     int texel = (corner.y * kTileSize + row) * info.columns + corner.x * kTileSize + column * kStripSize;
-    ivec4 film_pl = imageLoad(before, strip);
-    uvec4 had = imageLoad(lying, strip), has;
+    ivec4 was = imageLoad(before, strip);
+    uvec4 had = imageLoad(lying, strip);
+    int film_pl[kStripSize];
+    uint has[kStripSize];
     for (int k = 0; k < kStripSize; ++k) {
       vec2 f = (vec2(column * kStripSize + k, row) + 0.5) / float(kTileSize);
       // As the flow has it: along rows first.
       vec4 here = between(between(m[0], m[1], f.x), between(m[2], m[3], f.x), f.y);
-      FilmTexel left = dried(film_pl[k], beadsOf(had[k]), uint(texel + k), here, info);
+      FilmTexel left = dried(was[k], beadsOf(had[k]), uint(texel + k), here, info);
       sums.dried_pl += left.gone_pl;
       uint whole = uint(max(left.film_pl, 0));
       sums.film_low_pl += whole & 0xffffu;
@@ -42,10 +45,12 @@ Left dryStrips(int tile, int lane, bool asleep) {
       film_pl[k] = left.film_pl;
       has[k] = packedBeads(left.beads);
     }
-    film[strip] = film_pl;
-    if (asleep) other[strip] = film_pl;
-    if (has != had) beads[strip] = has;
-  }
+    ivec4 is = ivec4(film_pl[0], film_pl[1], film_pl[2], film_pl[3]);
+    uvec4 lie = uvec4(has[0], has[1], has[2], has[3]);
+    film[strip] = is;
+    if (asleep) other[strip] = is;
+    if (lie != had) beads[strip] = lie;
+  } while (++row < first + kWalkRows);
   return sums;
 }
 
@@ -67,8 +72,8 @@ void main() {
   if (!here || lane != 0) return;
   Left left = left_on[tile_in_group];
   states[t].dried_pl = left.dried_pl;
-  states[t].film_low_pl = int(left.film_low_pl);
-  states[t].film_high = int(left.film_high);
-  states[t].beads_pl = left.beads_pl;
+  states[t].last[kFilmLow] = int(left.film_low_pl);
+  states[t].last[kFilmHigh] = int(left.film_high);
+  states[t].last[kBeadsPl] = int(left.beads_pl);
   tiles[t] = FilmTile(-1, 0, left.film_low_pl, left.film_high, 0, 0, left.dried_pl, left.beads_pl);  // the flow knows better where it comes
 }

@@ -24,7 +24,7 @@ void main() {
   bool now = wakes(t), looked_at = now || states[t].awake != 0;
   states[t].awake = int(now);
   // Of what came to it in this step its state does not know yet.
-  if (driesNow(uint(t), info) && (looked_at || (uint(states[t].film_low_pl | states[t].film_high) | states[t].beads_pl) != 0u)) {
+  if (driesNow(uint(t), info) && (looked_at || (states[t].last[kFilmLow] | states[t].last[kFilmHigh] | states[t].last[kBeadsPl]) != 0)) {
     uint place = atomicAdd(drying[turn].number, 1u);
     listed[uint(count) + place] = looked_at ? t : -1 - t;
     AwakeTiles groups = groupsUpTo(place / uint(kTilesInDryGroup));
@@ -38,6 +38,6 @@ void main() {
     atomicMax(awake[turn].groups_x, groups.groups_x);
     atomicMax(awake[turn].groups_y, groups.groups_y);
   } else {
-    tiles[t] = FilmTile(-1, 0, uint(states[t].film_low_pl), uint(states[t].film_high), 0, 0, 0, states[t].beads_pl);
+    tiles[t] = FilmTile(-1, 0, uint(states[t].last[kFilmLow]), uint(states[t].last[kFilmHigh]), 0, 0, 0, uint(states[t].last[kBeadsPl]));
   }
 }

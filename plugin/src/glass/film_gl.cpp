@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 6 * sizeof(int32_t);  // TileState in film_buffers.glsl
+constexpr size_t kTileStateBytes = 11 * sizeof(int32_t);  // TileState in film_buffers.glsl
 constexpr std::array<uint32_t, 16> kNoneAwake{
     0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns, and those that dry
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
@@ -117,7 +117,8 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       beads_picture_(gl, GL_R32UI, map.grid().size.x, map.grid().size.y),
       change_of_(static_cast<size_t>(map.texelCount()), -1) {
   metric_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), metric_, 0, metric_.bytes());
-  glass_strips_.show(GL_R32UI, sizeof(uint32_t), glass_, 0, glass_.bytes());
+  glass_strips_.show(GL_RGBA32UI, shared::kTileSize / shared::kStripSize * sizeof(uint32_t), glass_, 0,
+                     glass_.bytes());
   for (size_t i = 0; i < film_.size(); ++i) {
     film_[i] = gl::Buffer(gl, tiles_ * kTileTexels * sizeof(int32_t));
     film_strips_[i] = gl::BufferTexture(gl);
@@ -305,7 +306,7 @@ void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, s
   image(1, metric_nodes_, GL_RGBA32F);
   image(2, drive_nodes_, GL_RGBA32F);
   image(3, beads_strips_, GL_RGBA32UI);
-  image(4, glass_strips_, GL_R32UI);
+  image(4, glass_strips_, GL_RGBA32UI);
   gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
                       static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, awake_.name());
