@@ -6,6 +6,7 @@
 #include "film_reference.h"
 #include "gl_fixture.h"
 #include "glass/film_gl.h"
+#include "glass/film_link.h"
 #include "scene.h"
 
 namespace rg::test {
@@ -218,6 +219,39 @@ TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
       ASSERT_EQ(film->readBeads(), reference.beads) << "step " << step;
     }
   }
+}
+
+// Many fast drops on a fine grid ask for many texels in one step: all of them get what lies there.
+TEST_F(Film, anyNumberOfTexelsIsTakenInAStep) {
+  constexpr int kEach_pl = 1000, kTakes = 6000;
+  const Mesh mesh = windscreen(0.3, 0.2, rad(30));
+  glass::PaneInfo pane = filmOnly(mesh);
+  pane.texel_m = 2e-3;
+  glass::PaneSim sim(pane, 1, 7);
+  glass::Ledger ledger;
+  glass::FilmLink link(sim.map(), ledger);
+  link.attach();
+  glass::FilmGl film(gl, glass::makeFilmPrograms(gl), sim.map(), sim.unevenness());
+  std::vector<int> texels;
+  for (int i = 0; i < sim.map().texelCount() && texels.size() < kTakes; ++i) {
+    if (sim.map().inside(i)) texels.push_back(i);
+  }
+  ASSERT_EQ(texels.size(), kTakes);
+  shared::FilmStepInfo info{};
+  info.columns = sim.map().grid().size.x;
+  info.rows = sim.map().grid().size.y;
+  info.pin_m = 3e-6f;  // thicker than what lies there
+  for (int64_t step = 0; step < 2; ++step) {
+    for (const int texel : texels) {
+      if (step == 0) link.add(texel, kEach_pl);
+      if (step == 1) link.take(texel, 1.0, 0, 0);
+    }
+    link.close(step, std::vector<shared::vec4>(sim.map().nodes().size()), info);
+    film.run(link.fetch());
+  }
+  const std::vector<glass::FilmReport> first = film.collect(true), second = film.collect(true);
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].taken_pl, std::vector<int>(kTakes, kEach_pl));
 }
 
 // tau > (2/3) rho g h sin a turns the net flow of a film round (physics.md 4).
