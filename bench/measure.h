@@ -42,6 +42,7 @@ class Stopwatch {
       : gl_(gl), software_(std::strstr(name(gl), "llvmpipe") || std::strstr(name(gl), "softpipe")) {
     for (rg::gl::TimestampQuery& query : queries_) query = rg::gl::TimestampQuery(gl);
   }
+  bool software() const { return software_; }
   template <class Work>
   double time(const Work& work) {
     const double from_ms = mark(0);

@@ -8,23 +8,38 @@ layout(std430, binding = 1) buffer Ridges {
   uint wiped_low_pl, wiped_high;
 };
 
+const int kFields = 8, kFilmLow = 2, kFilmHigh = 3, kBeadsPl = 7; // of FilmTile
+
 // Water below the pin lies still. A tile is looked at when some on it or on a tile beside it may flow, when it was given or lost water, and
 // when it is its turn to dry; and once more, as the film is in one buffer and then in the other.
 struct TileState {
   int stirs; // holds water that may flow, or was changed from outside
   int awake; // in the last step
-  int film_low_pl, film_high; // of its last report
-  uint beads_pl;
   int dried_pl; // in its last turn to dry
+  int last[kFields]; // its last report
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };
 
 layout(location = 0) uniform int count;
 layout(location = 1) uniform int turn; // of two, one for every other step
 
-// How many tiles a step looks at, and the command for so many groups: in rows, as GL promises no more than 65535 along an axis.
+// How many tiles a step looks at, and the command for as many groups as they need: in rows, as GL promises no more than 65535 along an axis.
 struct AwakeTiles { uint groups_x, groups_y, groups_z, number; };
-const uint kTilesInRow = 32768u;
+const uint kGroupsInRow = 32768u;
+uint groupInRows() { return gl_WorkGroupID.y * kGroupsInRow + gl_WorkGroupID.x; }
+
+// A group takes four tiles; its invocations walk over them, each over so many strips side by side and rows. A long way over wide rows shares most: that
+// suits software GL, which runs eight at once, and these are a group. A GPU wants many, with few registers each.
+#ifdef RG_SOFTWARE_GL
+const int kWalkStrips = 4, kWalkRows = 16, kTilesInGroup = 8;
+#else
+const int kWalkStrips = 1, kWalkRows = 4, kTilesInGroup = 4;
+#endif
+const int kStrips = kTileSize / kStripSize; // of a tile's row
+const int kWalksAcross = kStrips / kWalkStrips, kWalks = kWalksAcross * (kTileSize / kWalkRows);
+const int kGroup = kTilesInGroup * kWalks;
+// Tiles dry by single strips.
+const int kDryWalks = kStrips * (kTileSize / kWalkRows), kTilesInDryGroup = kGroup / kDryWalks;
 
 int tilesAcross() { return (info.columns + kTileSize - 1) / kTileSize; }
 

@@ -1,208 +1,299 @@
 // A film step: every texel gathers what its neighbours give and gives what they gather, takes in beads that it flows over, and may offer water to
 // the drops. It reads the film in one buffer and writes it to another, so that all see it as it was; beads it changes where they are. The
 // law is in shared/glass_film.glsl.
-// A tile that is awake is a group: two invocations for four columns, from the tile's lower and upper edge to its middle. Software GL, too, reads
-// buffers as images fast, but as storage slowly, and runs through branches that nobody takes.
+// Invocations walk over kColumns columns of a tile that is awake, kWalkRows rows from its lower or upper edge towards its middle, and keep what they
+// know of a texel for the next. Software GL, too, reads buffers as images fast, but as storage slowly, and runs through branches that nobody takes.
 #include "glass/film_buffers.glsl"
-layout(local_size_x = 8) in;
+layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
 layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
 layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // beads: the buffer below
-layout(r32ui, binding = 4) readonly uniform uimageBuffer glass;    // a code for each strip
-layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
-layout(std430, binding = 6) writeonly buffer Lying { uvec4 beads[]; };
+layout(rgba32ui, binding = 4) readonly uniform uimageBuffer glass; // a code for each strip of a tile's row
+layout(std430, binding = 3) buffer After { ivec4 after[]; };
+layout(std430, binding = 6) buffer Lying { uvec4 beads[]; };
 layout(std430, binding = 2) writeonly buffer Report { int tiles[]; }; // FilmTile
 layout(std430, binding = 4) readonly buffer Awake {
   AwakeTiles awake[2], drying[2];
   int listed[];
 };
 
-const int kStrips = kTileSize / kStripSize, kRows = kTileSize / 2, kWalks = 2 * kStrips;
-const int kNone = 0x7fffffff;
+const int kColumns = kWalkStrips * kStripSize;
 
-// What an invocation saw on its way.
+// What an invocation saw on its way: its part of the tile's report.
 struct Walk {
-  FilmTile sums;   // its part of the tile's report; the event is its greatest offer
-  FilmTexel offering; // the texel that makes it
-  int stirs;
+  int offer_pl;          // its greatest to the drops
+  int offer_at;          // place in the tile, row by row, of the texel that makes it
+  int film_low_pl, film_high, drained_pl, blown_pl, beads_pl; // as in FilmTile
+  int stirs;             // not to fall asleep
 };
-// The greatest offer of all and the first texel that makes it; each walk's part of the fields of FilmTile.
-shared int greatest_pl, first_texel, stirring, parts[kWalks * kWalks];
+// What the walks of a group tell each other: their parts of the fields of FilmTile, then whether they stir and what the offering texel has.
+const int kStirs = 8, kFilm = 9, kBeads = 10, kTold = 11;
+shared int told[kTold * kGroup];
 
-// Fields along a column of a tile: at its lower and its upper edge.
-struct Column { vec4 metric_low, metric_high, drive_low, drive_high; };
-struct Corners { vec4 metric[4], drive[4]; };
+// Fields at a corner of tiles, and along a column of a tile: at its lower and its upper edge.
+struct Corner { vec4 metric, drive; };
+struct Column { Corner low, high; };
 
-Corners cornersOf(ivec2 tile) {
-  int low = tile.y * (tilesAcross() + 1) + tile.x, high = low + tilesAcross() + 1;
-  return Corners(vec4[4](imageLoad(metric, low), imageLoad(metric, low + 1), imageLoad(metric, high), imageLoad(metric, high + 1)),
-                 vec4[4](imageLoad(drive, low), imageLoad(drive, low + 1), imageLoad(drive, high), imageLoad(drive, high + 1)));
+Corner cornerOf(int tile_x, int tile_y) {
+  int at = tile_y * (tilesAcross() + 1) + tile_x;
+  return Corner(imageLoad(metric, at), imageLoad(drive, at));
 }
+Corner between(Corner a, Corner b, float f) { return Corner(between(a.metric, b.metric, f), between(a.drive, b.drive, f)); }
+Corner chosen(bool first, Corner a, Corner b) { return Corner(first ? a.metric : b.metric, first ? a.drive : b.drive); }
 
 // A texel's place between the edges of its tile.
 float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
 
-Column columnOf(Corners c, int x) {
-  float f = fraction(x);
-  return Column(between(c.metric[0], c.metric[1], f), between(c.metric[2], c.metric[3], f),
-                between(c.drive[0], c.drive[1], f), between(c.drive[2], c.drive[3], f));
-}
-Column columnBeside(int x, int tile_row) { return columnOf(cornersOf(ivec2(x >> 4, tile_row)), x); }
+Corner fieldAt(Column column, int y) { return between(column.low, column.high, fraction(y)); }
 
-FilmCell cellOf(Column column, int y, int volume_pl, FilmAround around, int level, FilmStepInfo step) {
-  float f = fraction(y);
-  return filmCell(volume_pl, around, level, between(column.drive_low, column.drive_high, f), between(column.metric_low, column.metric_high, f), step);
+FilmCell cellOf(Corner field, int volume_pl, FilmAround around, int level, FilmStepInfo step) {
+  return filmCell(volume_pl, around, level, field.drive, field.metric, step);
 }
 
-// A row of strips: an invocation's own, with the two texels on either side of it that its law asks for.
-struct Row { ivec4 own, left, right; };
-Row rowOf(int strip) { return Row(imageLoad(before, strip), imageLoad(before, strip - 1), imageLoad(before, strip + 1)); }
-int leftOf(Row row, int k) { return k > 0 ? row.own[(k + 3) % kStripSize] : row.left.w; }
-int rightOf(Row row, int k) { return k + 1 < kStripSize ? row.own[(k + 1) % kStripSize] : row.right.x; }
+// A row of an invocation's texels, with the two on either side of them that its law asks for: texel k is the k + 2nd.
+struct Row { int at[kColumns + 4]; };
+Row rowOf(int strip) {
+  Row row;
+  ivec4 left = imageLoad(before, strip - 1), right = imageLoad(before, strip + kWalkStrips);
+  row.at[0] = left.z;
+  row.at[1] = left.w;
+  for (int s = 0; s < kWalkStrips; ++s) {
+    ivec4 own = imageLoad(before, strip + s);
+    for (int k = 0; k < kStripSize; ++k) row.at[s * kStripSize + k + 2] = own[k];
+  }
+  row.at[kColumns + 2] = right.x;
+  row.at[kColumns + 3] = right.y;
+  return row;
+}
 FilmAround aroundOf(Row row, int k, int behind_pl, int ahead_pl) {
-  return filmAround(row.own[k], leftOf(row, k), rightOf(row, k), behind_pl, ahead_pl);
+  return filmAround(row.at[k + 2], row.at[k + 1], row.at[k + 3], behind_pl, ahead_pl);
+}
+
+// The glass below a row of texels.
+struct Glass { uint codes[kWalkStrips]; };
+Glass glassOf(int strip) {
+  uvec4 row = imageLoad(glass, strip / kStrips);
+  Glass under;
+  for (int s = 0; s < kWalkStrips; ++s) under.codes[s] = row[strip % kStrips + s];
+  return under;
+}
+int levelAt(Glass under, int k) {
+  int s = min(max(k, 0) / kStripSize, kWalkStrips - 1);
+  return glassLevel(under.codes[s], k - s * kStripSize);
+}
+
+struct Strips { uint of[kColumns]; };
+Strips beadsIn(int strip) {
+  Strips row;
+  for (int s = 0; s < kWalkStrips; ++s) {
+    uvec4 own = imageLoad(lying, strip + s);
+    for (int k = 0; k < kStripSize; ++k) row.of[s * kStripSize + k] = own[k];
+  }
+  return row;
 }
 
 // Over an edge that looks up it is blown off, over others it drains.
-void leavePane(int volume_pl, vec2 outward, inout FilmTile sums) {
-  if (dot(outward, vec2(info.up_x, info.up_y)) > 0.5) sums.blown_pl += volume_pl;
-  else sums.drained_pl += volume_pl;
+void leavePane(int volume_pl, vec2 outward, inout Walk seen) {
+  if (dot(outward, vec2(info.up_x, info.up_y)) > 0.5) seen.blown_pl += volume_pl;
+  else seen.drained_pl += volume_pl;
 }
 
-Walk walk(ivec2 tile) {
+Walk walk(ivec2 tile, int lane) {
   FilmStepInfo step = info;
-  int lane = int(gl_LocalInvocationIndex), up = lane < kStrips ? 1 : -1, across = tilesAcross() * kStrips;
-  int x = (tile.x * kStrips + lane % kStrips) * kStripSize, y = tile.y * kTileSize + (up > 0 ? 0 : kTileSize - 1);
-  int strip = y * across + x / kStripSize, texel = y * step.columns + x;
+  int column = lane % kWalksAcross * kColumns, first = lane / kWalksAcross * kWalkRows, across = tilesAcross() * kStrips;
+  int x = tile.x * kTileSize + column, y = tile.y * kTileSize + first, strip = y * across + x / kStripSize, at = first * kTileSize + column;
 
-  Corners own = cornersOf(tile), back = cornersOf(tile - ivec2(0, up));
-  Column left_column = columnBeside(x - 1, tile.y), right_column = columnBeside(x + kStripSize, tile.y);
-  Column columns[kStripSize];
-  FilmCell me[kStripSize];
-  int from_back[kStripSize];
-  bool back_off[kStripSize];
-  // The rows behind, here and ahead; of the two beyond only what lies in the own columns.
-  Row last = rowOf(strip - up * across), here = rowOf(strip), ahead = rowOf(strip + up * across);
-  ivec4 farthest_back = imageLoad(before, strip - 2 * up * across);
-  uint glass_last = imageLoad(glass, strip - up * across).x, glass_here = imageLoad(glass, strip).x;
-  for (int k = 0; k < kStripSize; ++k) {
-    columns[k] = columnOf(own, x + k);
-    FilmCell behind = cellOf(columnOf(back, x + k), y - up, last.own[k], aroundOf(last, k, farthest_back[k], here.own[k]), glassLevel(glass_last, k), step);
-    me[k] = cellOf(columns[k], y, here.own[k], aroundOf(here, k, last.own[k], ahead.own[k]), glassLevel(glass_here, k), step);
-    from_back[k] = flowBetween_pl(behind, behind.y_pl * up, behind.y_both_pl, me[k], me[k].y_pl * up, me[k].y_both_pl, step);
-    back_off[k] = behind.volume_pl < 0;
+  // Corners of the tile, and of those on whose texels it borders.
+  bool at_left = column == 0, at_right = column + kColumns == kTileSize, at_bottom = first == 0, at_top = first + kWalkRows == kTileSize;
+  Corner low_left = cornerOf(tile.x, tile.y), low_right = cornerOf(tile.x + 1, tile.y);
+  Corner high_left = cornerOf(tile.x, tile.y + 1), high_right = cornerOf(tile.x + 1, tile.y + 1);
+  int beyond_left = tile.x - int(at_left), beyond_right = tile.x + 1 + int(at_right), below = tile.y - int(at_bottom), above = tile.y + 1 + int(at_top);
+  float f_left = fraction(x - 1), f_right = fraction(x + kColumns);
+  Column left_column = Column(between(cornerOf(beyond_left, tile.y), chosen(at_left, low_left, low_right), f_left),
+                              between(cornerOf(beyond_left, tile.y + 1), chosen(at_left, high_left, high_right), f_left));
+  Column right_column = Column(between(chosen(at_right, low_right, low_left), cornerOf(beyond_right, tile.y), f_right),
+                               between(chosen(at_right, high_right, high_left), cornerOf(beyond_right, tile.y + 1), f_right));
+  Corner below_left = cornerOf(tile.x, below), below_right = cornerOf(tile.x + 1, below);
+  Corner above_left = cornerOf(tile.x, above), above_right = cornerOf(tile.x + 1, above);
+
+  Column columns[kColumns];
+  vec4 metric_here[kColumns];
+  FilmCell me[kColumns];
+  int from_below[kColumns];
+  bool below_off[kColumns];
+  // The rows below, here and above; of the two beyond only what lies in the own columns.
+  Row beneath = rowOf(strip - 2 * across), last = rowOf(strip - across), here = rowOf(strip), ahead = rowOf(strip + across);
+  Glass glass_last = glassOf(strip - across), glass_here = glassOf(strip);
+  for (int k = 0; k < kColumns; ++k) {
+    float f = fraction(x + k);
+    columns[k] = Column(between(low_left, low_right, f), between(high_left, high_right, f));
+    Corner beyond = between(below_left, below_right, f);
+    Column under = Column(beyond, chosen(at_bottom, columns[k].low, columns[k].high));
+    FilmCell behind = cellOf(fieldAt(under, y - 1), last.at[k + 2], aroundOf(last, k, beneath.at[k + 2], here.at[k + 2]), levelAt(glass_last, k), step);
+    Corner field = fieldAt(columns[k], y);
+    metric_here[k] = field.metric;
+    me[k] = cellOf(field, here.at[k + 2], aroundOf(here, k, last.at[k + 2], ahead.at[k + 2]), levelAt(glass_here, k), step);
+    from_below[k] = flowBetween_pl(behind, behind.y_pl, behind.y_both_pl, me[k], me[k].y_pl, me[k].y_both_pl, step);
+    below_off[k] = behind.volume_pl < 0;
   }
 
-  // Over the pane's edges: to the left, to the right, behind and ahead.
-  int over_left = 0, over_right = 0, over_back = 0, over_ahead = 0;
-  Walk seen = Walk(FilmTile(-1, 0, 0u, 0u, 0, 0, 0, 0u), FilmTexel(0, noBeads(), 0, 0), 0);
-  for (int row = 0; row < kRows; ++row) {
-    Row beyond = rowOf(strip + 2 * up * across);
-    ivec4 after_pl;
-    uvec4 beads_of = imageLoad(lying, strip);
-    uint glass_ahead = imageLoad(glass, strip + up * across).x;
-    FilmAround by_left = filmAround(here.left.w, here.left.z, here.own.x, last.left.w, ahead.left.w);
-    FilmAround by_right = filmAround(here.right.x, here.own.w, here.right.y, last.right.x, ahead.right.x);
-    FilmCell left = cellOf(left_column, y, here.left.w, by_left, glassLevel(glass_here, -1), step);
-    FilmCell right = cellOf(right_column, y, here.right.x, by_right, glassLevel(glass_here, kStripSize), step);
-    bool left_off = left.volume_pl < 0;
-    int from_left = flowBetween_pl(left, left.x_pl, left.x_both_pl, me[0], me[0].x_pl, me[0].x_both_pl, step);
-    for (int k = 0; k < kStripSize; ++k) {
-      FilmCell beside = k + 1 < kStripSize ? me[(k + 1) % kStripSize] : right;
-      int to_right = flowBetween_pl(me[k], me[k].x_pl, me[k].x_both_pl, beside, beside.x_pl, beside.x_both_pl, step);
-      FilmCell next = cellOf(columns[k], y + up, ahead.own[k], aroundOf(ahead, k, here.own[k], beyond.own[k]),
-                             glassLevel(glass_ahead, k), step);
-      int to_next = flowBetween_pl(me[k], me[k].y_pl * up, me[k].y_both_pl, next, next.y_pl * up, next.y_both_pl, step);
+  // Over the pane's edges.
+  int over_left = 0, over_right = 0, over_below = 0, over_above = 0;
+  Walk seen = Walk(0, 0, 0, 0, 0, 0, 0, 0);
+  // Before its last row it changes to the columns that the row above has.
+  int part = 0;
+  do {
+    int rows = part == 0 ? kWalkRows - 1 : 1;
+    do {
+      Row beyond = rowOf(strip + 2 * across);
+      Glass glass_ahead = glassOf(strip + across);
+      const int l = 1, r = kColumns + 2;
+      FilmAround by_left = filmAround(here.at[l], here.at[l - 1], here.at[l + 1], last.at[l], ahead.at[l]);
+      FilmAround by_right = filmAround(here.at[r], here.at[r - 1], here.at[r + 1], last.at[r], ahead.at[r]);
+      FilmCell left = cellOf(fieldAt(left_column, y), here.at[l], by_left, levelAt(glass_here, -1), step);
+      FilmCell right = cellOf(fieldAt(right_column, y), here.at[r], by_right, levelAt(glass_here, kColumns), step);
+      bool left_off = left.volume_pl < 0;
+      int from_left = flowBetween_pl(left, left.x_pl, left.x_both_pl, me[0], me[0].x_pl, me[0].x_both_pl, step);
+      Strips lay = beadsIn(strip), lie = lay;
+      int after_pl[kColumns];
+      for (int k = 0; k < kColumns; ++k) {
+        FilmCell beside = k + 1 < kColumns ? me[(k + 1) % kColumns] : right;
+        int to_right = flowBetween_pl(me[k], me[k].x_pl, me[k].x_both_pl, beside, beside.x_pl, beside.x_both_pl, step);
+        Corner field = fieldAt(columns[k], y + 1);
+        FilmCell next = cellOf(field, ahead.at[k + 2], aroundOf(ahead, k, here.at[k + 2], beyond.at[k + 2]), levelAt(glass_ahead, k), step);
+        int to_next = flowBetween_pl(me[k], me[k].y_pl, me[k].y_both_pl, next, next.y_pl, next.y_both_pl, step);
 
-      bool on = me[k].volume_pl >= 0;
-      over_left += on && left_off ? -from_left : 0;
-      over_right += on && beside.volume_pl < 0 ? to_right : 0;
-      over_back += on && back_off[k] ? -from_back[k] : 0;
-      over_ahead += on && next.volume_pl < 0 ? to_next : 0;
+        bool on = me[k].volume_pl >= 0;
+        over_left += on && left_off ? -from_left : 0;
+        over_right += on && beside.volume_pl < 0 ? to_right : 0;
+        over_below += on && below_off[k] ? -from_below[k] : 0;
+        over_above += on && next.volume_pl < 0 ? to_next : 0;
 
-      vec4 m = between(columns[k].metric_low, columns[k].metric_high, fraction(y));
-      int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_back[k]) - to_next;
-      FilmTexel now = settled(on ? volume : -1, beadsOf(beads_of[k]), m, step);
-      now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
-      int offered = now.gone_pl;
-      // The greatest, and of those the first.
-      bool better = offered > seen.sums.event_pl || (offered > 0 && offered == seen.sums.event_pl && texel + k < seen.sums.event_texel);
-      seen.sums.event_texel = better ? texel + k : seen.sums.event_texel;
-      seen.sums.event_pl = better ? offered : seen.sums.event_pl;
-      if (better) seen.offering = now;
-      // Asleep next time only if neighbours, too, have seen it lie still.
-      seen.stirs |= now.stirs | int(me[k].h_m >= step.pin_m);
-      uint whole = uint(max(now.film_pl, 0));
-      seen.sums.film_low_pl += whole & 0xffffu;
-      seen.sums.film_high += whole >> 16u;
-      seen.sums.beads_pl += uint(now.beads.volume_pl);
-      after_pl[k] = now.film_pl;
-      beads_of[k] = packedBeads(now.beads);
+        int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_below[k]) - to_next;
+        FilmTexel now = settled(on ? volume : -1, beadsOf(lay.of[k]), metric_here[k], step);
+        now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
+        bool better = now.gone_pl > seen.offer_pl;
+        seen.offer_at = better ? at + k : seen.offer_at;
+        seen.offer_pl = better ? now.gone_pl : seen.offer_pl;
+        // Asleep next time only if neighbours, too, have seen it lie still.
+        seen.stirs |= now.stirs | int(me[k].h_m >= step.pin_m);
+        int whole = max(now.film_pl, 0);
+        seen.film_low_pl += whole & 0xffff;
+        seen.film_high += whole >> 16;
+        seen.beads_pl += now.beads.volume_pl;
+        after_pl[k] = now.film_pl;
+        lie.of[k] = packedBeads(now.beads);
 
-      left_off = !on;
-      back_off[k] = !on;
-      from_left = to_right;
-      from_back[k] = to_next;
-      me[k] = next;
+        left_off = !on;
+        below_off[k] = !on;
+        from_left = to_right;
+        from_below[k] = to_next;
+        me[k] = next;
+        metric_here[k] = field.metric;
+      }
+      for (int s = 0; s < kWalkStrips; ++s) {
+        int k = s * kStripSize;
+        after[strip + s] = ivec4(after_pl[k], after_pl[k + 1], after_pl[k + 2], after_pl[k + 3]);
+        uvec4 had = uvec4(lay.of[k], lay.of[k + 1], lay.of[k + 2], lay.of[k + 3]), has = uvec4(lie.of[k], lie.of[k + 1], lie.of[k + 2], lie.of[k + 3]);
+        if (has != had) beads[strip + s] = has;
+      }
+      last = here;
+      here = ahead;
+      ahead = beyond;
+      glass_here = glass_ahead;
+      ++y;
+      strip += across;
+      at += kTileSize;
+    } while (--rows > 0);
+    for (int k = 0; k < kColumns; ++k) {
+      Corner beyond = between(above_left, above_right, fraction(x + k));
+      columns[k] = Column(chosen(at_top, columns[k].high, columns[k].low), beyond);
     }
-    after[strip] = after_pl;
-    beads[strip] = beads_of;
-    last = here;
-    here = ahead;
-    ahead = beyond;
-    glass_here = glass_ahead;
-    y += up;
-    strip += up * across;
-    texel += up * step.columns;
-  }
-  leavePane(over_left, vec2(-1.0, 0.0), seen.sums);
-  leavePane(over_right, vec2(1.0, 0.0), seen.sums);
-  leavePane(over_back, vec2(0.0, -up), seen.sums);
-  leavePane(over_ahead, vec2(0.0, up), seen.sums);
+  } while (++part < 2);
+  leavePane(over_left, vec2(-1.0, 0.0), seen);
+  leavePane(over_right, vec2(1.0, 0.0), seen);
+  leavePane(over_below, vec2(0.0, -1.0), seen);
+  leavePane(over_above, vec2(0.0, 1.0), seen);
   return seen;
 }
 
-// Each invocation sums one field of FilmTile. One texel of a tile gives to the drops: the one with most, the first of those.
-void report(int t, Walk seen) {
-  int lane = int(gl_LocalInvocationIndex);
-  atomicMax(greatest_pl, seen.sums.event_pl);
-  barrier();
-  if (seen.sums.event_pl > 0 && seen.sums.event_pl == greatest_pl) atomicMin(first_texel, seen.sums.event_texel);
-  barrier();
-  bool gives = seen.sums.event_texel == first_texel;
-  FilmTexel had = seen.offering, left = gives ? without(had, seen.sums.event_pl) : had;
-  if (gives) {
-    int place = placeOf(first_texel);
-    after[place / kStripSize][place % kStripSize] = left.film_pl;
-    beads[place / kStripSize][place % kStripSize] = packedBeads(left.beads);
+// -1: the last group has more walks than there are.
+int listedTile() {
+  uint place = groupInRows() * uint(kTilesInGroup) + gl_LocalInvocationIndex / uint(kWalks);
+  return place < awake[turn].number ? listed[place] : -1;
+}
+
+int toldBy(int walk, int what) { return told[what * kGroup + walk]; }
+
+// A strip of the film and of the beads, and a texel of it.
+struct Offering { int strip, k; ivec4 film_pl; uvec4 beads; };
+Offering offeringOf(ivec2 tile, int at) {
+  Offering o;
+  o.strip = (tile.y * kTileSize + at / kTileSize) * tilesAcross() * kStrips + tile.x * kStrips + at % kTileSize / kStripSize;
+  o.k = at % kStripSize;
+  o.film_pl = after[o.strip];
+  o.beads = beads[o.strip];
+  return o;
+}
+
+void tell(Walk seen, Offering offering) {
+  int what[kTold] = int[kTold](seen.offer_at, seen.offer_pl, seen.film_low_pl, seen.film_high, seen.drained_pl, seen.blown_pl, 0, seen.beads_pl,
+                               seen.stirs, offering.film_pl[offering.k], int(offering.beads[offering.k]));
+  for (int k = 0; k < kTold; ++k) told[k * kGroup + int(gl_LocalInvocationIndex)] = what[k];
+}
+
+// One texel of a tile gives to the drops: the one with most, the first of those. Which walk's it is; -1: none.
+int giverAmong(int first) {
+  int giver = -1, most_pl = 0, earliest = 0;
+  for (int k = first; k < first + kWalks; ++k) {
+    int offer_pl = toldBy(k, 1), at = toldBy(k, 0);
+    bool better = offer_pl > most_pl || (offer_pl > 0 && offer_pl == most_pl && at < earliest);
+    giver = better ? k : giver;
+    most_pl = better ? offer_pl : most_pl;
+    earliest = better ? at : earliest;
   }
-  int film_low_pl = int(seen.sums.film_low_pl) + (left.film_pl & 0xffff) - (had.film_pl & 0xffff);
-  int film_high = int(seen.sums.film_high) + (left.film_pl >> 16) - (had.film_pl >> 16);
-  int beads_pl = int(seen.sums.beads_pl) + left.beads.volume_pl - had.beads.volume_pl;
-  int part[kWalks] = int[kWalks](gives ? first_texel + 1 : 0, gives ? seen.sums.event_pl : 0, film_low_pl, film_high,
-                                 seen.sums.drained_pl, seen.sums.blown_pl, lane == 0 && driesNow(uint(t), info) ? states[t].dried_pl : 0, beads_pl);
-  for (int field = 0; field < kWalks; ++field) parts[lane * kWalks + field] = part[field];
-  atomicOr(stirring, seen.stirs);
-  barrier();
-  int sum = 0;
-  for (int k = 0; k < kWalks; ++k) sum += parts[k * kWalks + lane];
-  tiles[t * kWalks + lane] = lane == 0 ? sum - 1 : sum;
-  if (lane == 0) states[t].stirs = stirring;
-  if (lane == 2) states[t].film_low_pl = sum;
-  if (lane == 3) states[t].film_high = sum;
-  if (lane == 7) states[t].beads_pl = uint(sum);
+  return giver;
+}
+
+// Each invocation sums its share of the fields of FilmTile.
+void report(int t, ivec2 tile, int lane, Offering own) {
+  int self = int(gl_LocalInvocationIndex), first = self - lane, giver = giverAmong(first), from = max(giver, first);
+  bool given = giver >= 0;
+  int given_pl = given ? toldBy(from, 1) : 0, at = toldBy(from, 0);
+  FilmTexel had = FilmTexel(toldBy(from, kFilm), beadsOf(uint(toldBy(from, kBeads))), given_pl, 0), left = without(had, given_pl);
+  if (giver == self) {
+    own.film_pl[own.k] = left.film_pl;
+    own.beads[own.k] = packedBeads(left.beads);
+    after[own.strip] = own.film_pl;
+    beads[own.strip] = own.beads;
+  }
+  int texel = given ? (tile.y * kTileSize + at / kTileSize) * info.columns + tile.x * kTileSize + at % kTileSize : -1;
+  int known[kFields] = int[kFields](texel, given_pl, (left.film_pl & 0xffff) - (had.film_pl & 0xffff), (left.film_pl >> 16) - (had.film_pl >> 16), 0, 0,
+                                    driesNow(uint(t), info) ? states[t].dried_pl : 0, left.beads.volume_pl - had.beads.volume_pl);
+  for (int field = lane; field < kFields; field += kWalks) {
+    int sum = known[field];
+    for (int k = first; field > 1 && k < first + kWalks; ++k) sum += toldBy(k, field);
+    tiles[t * kFields + field] = sum;
+    states[t].last[field] = sum;
+  }
+  if (lane == 0) {
+    int stirs = 0;
+    for (int k = first; k < first + kWalks; ++k) stirs |= toldBy(k, kStirs);
+    states[t].stirs = stirs;
+  }
 }
 
 void main() {
-  uint place = gl_WorkGroupID.y * kTilesInRow + gl_WorkGroupID.x;
-  if (place >= awake[turn].number) return;
-  int t = listed[place];
-  if (gl_LocalInvocationIndex == 0u) {
-    greatest_pl = 0;
-    first_texel = kNone;
-    stirring = 0;
+  int lane = int(gl_LocalInvocationIndex) % kWalks, t = listedTile();
+  ivec2 tile = ivec2(t % tilesAcross(), t / tilesAcross());
+  bool here = t >= 0;
+  Offering offering;
+  if (here) {
+    Walk seen = walk(tile, lane);
+    offering = offeringOf(tile, seen.offer_at);
+    tell(seen, offering);
   }
   barrier();
-  report(t, walk(ivec2(t % tilesAcross(), t / tilesAcross())));
+  if (here) report(t, tile, lane, offering);
 }

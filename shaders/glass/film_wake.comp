@@ -4,8 +4,10 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 2) writeonly buffer Report { FilmTile tiles[]; };
 layout(std430, binding = 4) buffer Awake {
   AwakeTiles awake[2], drying[2]; // this step's, and the next's made ready
-  int listed[];                   // those awake, and from `count` on those that dry
+  int listed[];                   // those awake, and from `count` on those that dry: -1 - tile where it sleeps on
 };
+
+AwakeTiles groupsUpTo(uint group) { return AwakeTiles(min(group + 1u, kGroupsInRow), group / kGroupsInRow + 1u, 1u, 0u); }
 
 bool stirs(ivec2 tile) { return states[tile.y * tilesAcross() + tile.x].stirs != 0; }
 
@@ -22,18 +24,20 @@ void main() {
   bool now = wakes(t), looked_at = now || states[t].awake != 0;
   states[t].awake = int(now);
   // Of what came to it in this step its state does not know yet.
-  if (driesNow(uint(t), info) && (looked_at || (uint(states[t].film_low_pl | states[t].film_high) | states[t].beads_pl) != 0u)) {
+  if (driesNow(uint(t), info) && (looked_at || (states[t].last[kFilmLow] | states[t].last[kFilmHigh] | states[t].last[kBeadsPl]) != 0)) {
     uint place = atomicAdd(drying[turn].number, 1u);
-    listed[uint(count) + place] = t;
-    atomicMax(drying[turn].groups_x, min(place + 1u, kTilesInRow));
-    atomicMax(drying[turn].groups_y, place / kTilesInRow + 1u);
+    listed[uint(count) + place] = looked_at ? t : -1 - t;
+    AwakeTiles groups = groupsUpTo(place / uint(kTilesInDryGroup));
+    atomicMax(drying[turn].groups_x, groups.groups_x);
+    atomicMax(drying[turn].groups_y, groups.groups_y);
   }
   if (looked_at) {
     uint place = atomicAdd(awake[turn].number, 1u);
     listed[place] = t;
-    atomicMax(awake[turn].groups_x, min(place + 1u, kTilesInRow));
-    atomicMax(awake[turn].groups_y, place / kTilesInRow + 1u);
+    AwakeTiles groups = groupsUpTo(place / uint(kTilesInGroup));
+    atomicMax(awake[turn].groups_x, groups.groups_x);
+    atomicMax(awake[turn].groups_y, groups.groups_y);
   } else {
-    tiles[t] = FilmTile(-1, 0, uint(states[t].film_low_pl), uint(states[t].film_high), 0, 0, 0, states[t].beads_pl);
+    tiles[t] = FilmTile(-1, 0, uint(states[t].last[kFilmLow]), uint(states[t].last[kFilmHigh]), 0, 0, 0, uint(states[t].last[kBeadsPl]));
   }
 }

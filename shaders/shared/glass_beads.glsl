@@ -42,7 +42,7 @@ RG_FN float cubeRoot(float x) {
 // Radius of the base of beads of the same volume each. `mm3_per_pl`: the cube of that of a picolitre, by the contact angle: V = R^3 capShape
 // (glass/water.h).
 RG_FN float beadRadius_mm(RG_IN(Beads) beads, float mm3_per_pl) {
-  return cubeRoot(float(beads.volume_pl / max(beads.number, 1)) * mm3_per_pl);
+  return cubeRoot(floor(float(beads.volume_pl) / float(max(beads.number, 1))) * mm3_per_pl);
 }
 
 // How many beads of a volume in all cover a share of an area, `per_m2` being 1 / area: share = n pi R^2 / area and V = n R^3 capShape, so

@@ -137,25 +137,20 @@ RG_FN void setLevelling(RG_INOUT(FilmStepInfo) info, float pressing_mps2, float 
   if (weight < 0.0f) info.heavy_m3 = min(info.heavy_m3, info.tense_m3);
 }
 
+// Without branches: software GL runs through them all, and keeps what they set in memory.
 RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_IN(vec4) drive, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmCell cell;
   cell.volume_pl = volume_pl;
   cell.h_m = thickness_m(volume_pl, metric);
-  cell.x_pl = 0;
-  cell.y_pl = 0;
-  cell.x_both_pl = 0;
-  cell.y_both_pl = 0;
-  cell.hollowness = 0.0f;
-  cell.slack = 0.0f;
-  cell.mainly_pl = 0.0f;
-  cell.entry_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
+  bool wet = cell.h_m >= info.pin_m;
   // Two fronts that meet over a texel take it between them.
-  if (volume_pl < 0 || cell.h_m >= info.pin_m || 2.0f * thickness_m(around.gap_pl, metric) >= cell.entry_m) cell.entry_m = 0.0f;
-  if (volume_pl <= 0 || cell.h_m < info.pin_m) return cell;
+  float front_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
+  cell.entry_m = volume_pl < 0 || wet || 2.0f * thickness_m(around.gap_pl, metric) >= front_m ? 0.0f : front_m;
   // Exact: both sides of a face work a texel out for themselves, and must agree to the picolitre.
-  RG_EXACT vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), u = fallen + blown;
-  if (thickness_m(around.least_pl, metric) < info.pin_m) u = turned(u, kMostTurn * unevenness(glass));
-  RG_EXACT float per_cells = kFilmStep_s / (metric.x * metric.y);
+  RG_EXACT vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), straight = fallen + blown;
+  RG_EXACT vec2 u = thickness_m(around.least_pl, metric) < info.pin_m ? turned(straight, kMostTurn * unevenness(glass)) : straight;
+  // What is not wet goes nowhere.
+  RG_EXACT float per_cells = volume_pl > 0 && wet ? kFilmStep_s / (metric.x * metric.y) : 0.0f;
   RG_EXACT float x_cells = metric.y * per_cells, y_cells = metric.x * per_cells, cx = u.x * x_cells, cy = u.y * y_cells;
   RG_EXACT float cx_both = counterflow(fallen.x, blown.x) * x_cells, cy_both = counterflow(fallen.y, blown.y) * y_cells;
   RG_EXACT float courant = abs(cx) + abs(cy) + 2.0f * (cx_both + cy_both);
@@ -245,45 +240,43 @@ RG_FN FilmTexel asItIs(int film_pl, RG_IN(Beads) lying) {
   return t;
 }
 
-// A turn to dry.
+// A turn to dry. Off the pane there is nothing to.
 RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmTexel t = asItIs(film_pl, lying);
-  if (film_pl < 0) return t;
   int film_dried_pl = evaporated_pl(film_pl, texel, metric, info);
   int beads_dried_pl = driedOfBeads_pl(lying, texel, info);
   t.film_pl -= film_dried_pl;
   t.beads.volume_pl -= beads_dried_pl;
-  if (t.beads.volume_pl == 0) t.beads.number = 0;
+  t.beads.number = t.beads.volume_pl == 0 ? 0 : t.beads.number;
   t.gone_pl = film_dried_pl + beads_dried_pl;
   float h_m = thickness_m(t.film_pl, metric);
   int surplus_pl = 0;
   Beads more = joinedBy(t.beads, t.film_pl, beadsOfBrokenFilm(h_m, metric.z), surplus_pl);
   float room = beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
   // Not where they would be too large at once: what dries is left as settled() leaves it, and may sleep on.
-  if (breaksUp(h_m, texel, info) && room >= 1.0f) {
-    t.film_pl = surplus_pl;
-    t.beads.volume_pl = more.volume_pl;
-    t.beads.number = int(min(float(more.number), room));
-  }
+  bool breaks = breaksUp(h_m, texel, info) && room >= 1.0f;
+  t.film_pl = breaks ? surplus_pl : t.film_pl;
+  t.beads.volume_pl = breaks ? more.volume_pl : t.beads.volume_pl;
+  t.beads.number = breaks ? int(min(float(more.number), room)) : t.beads.number;
   return t;
 }
 
-// After water has flowed.
+// After water has flowed. Off the pane nothing has, and no beads lie there.
 RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, RG_IN(vec4) metric, RG_IN(FilmStepInfo) info) {
   FilmTexel t = asItIs(film_pl, lying);
-  if (film_pl < 0) return t;
   // Where they are crowded neighbours run together, until there are as many as have room.
   float room = beadsCovering(lying.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
-  if (room < float(lying.number)) t.beads.number = max(1, int(room));
-  bool alone = t.beads.number == 1 && room < 1.0f;
+  int number = room < float(lying.number) ? max(1, int(room)) : lying.number;
+  bool alone = number == 1 && room < 1.0f;
   // A film that flows takes them along; a lone one as wide as its texel is a film.
-  if (thickness_m(film_pl, metric) >= info.pin_m || (alone && room < kFlooded)) {
-    t.film_pl += t.beads.volume_pl;
-    t.beads = noBeads();
-  }
+  bool joins = thickness_m(film_pl, metric) >= info.pin_m || (alone && room < kFlooded);
+  t.film_pl += joins ? lying.volume_pl : 0;
+  t.beads.volume_pl = joins ? 0 : lying.volume_pl;
+  t.beads.number = joins ? 0 : number;
+  float h_m = thickness_m(t.film_pl, metric);
   int too_much_pl = t.film_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
-  bool overfull = thickness_m(t.film_pl, metric) > kOverfull_m, too_large = alone && t.beads.number > 0;
-  t.stirs = int(too_large || thickness_m(t.film_pl, metric) >= info.pin_m);
+  bool overfull = h_m > kOverfull_m, too_large = alone && t.beads.number > 0;
+  t.stirs = int(too_large || h_m >= info.pin_m);
   t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? too_much_pl : too_large ? t.beads.volume_pl : 0;
   return t;
 }

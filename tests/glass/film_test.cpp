@@ -7,6 +7,7 @@
 #include "gl/loader.h"
 #include "gl_fixture.h"
 #include "glass/film_gl.h"
+#include "glass/film_link.h"
 #include "scene.h"
 
 namespace rg::test {
@@ -142,6 +143,23 @@ void expectAlike(const std::vector<T>& got, const std::vector<T>& expected, cons
   EXPECT_LT(others, static_cast<int>(got.size()) / 50) << what;
 }
 
+// Shared out among invocations as software GL and as a GPU likes it.
+std::vector<std::unique_ptr<glass::FilmGl>> filmsOf(const GladGLContext& gl, const glass::PaneSim& sim) {
+  std::vector<std::unique_ptr<glass::FilmGl>> films;
+  for (const bool software : {true, false}) {
+    const auto programs = std::make_shared<glass::FilmPrograms>(gl, glass::FilmKernel::none, software);
+    films.push_back(std::make_unique<glass::FilmGl>(gl, programs, sim.map(), sim.unevenness()));
+  }
+  return films;
+}
+
+glass::FilmReport reportOf(glass::FilmGl& film, const glass::FilmOrder& order) {
+  film.run({order});
+  std::vector<glass::FilmReport> reports = film.collect(true);
+  EXPECT_EQ(reports.size(), 1u);
+  return std::move(reports.at(0));
+}
+
 // The GPU and the CPU run one text; on a GL that rounds as the CPU does their integers agree to the last one,
 // orders of all kinds included.
 TEST_F(Film, isTheSameOnGpuAndCpu) {
@@ -156,8 +174,7 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
   const WiperMotor motor(3, rad(20), rad(150), 70.0);
   sim.attachFilm();
   FilmReference reference(sim.map(), sim.unevenness());
-  const auto programs = glass::makeFilmPrograms(gl);
-  glass::FilmGl gpu(gl, programs, sim.map(), sim.unevenness());
+  const auto films = filmsOf(gl, sim);
   int64_t took = 0, swept = 0, left = 0, wiped = 0, events = 0;
   for (int64_t index = 1; index <= 480; ++index) {
     glass::PaneTick tick = weather(100.0, 20.0, 0.5);
@@ -167,13 +184,11 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
                                   static_cast<double>(index) * kTickSeconds);
     sim.submit(tick);
     for (const glass::FilmOrder& order : sim.fetchOrders()) {
-      std::vector<glass::FilmOrder> copy{order};
-      gpu.run(std::move(copy));
-      const std::vector<glass::FilmReport> reports = gpu.collect(true);
-      ASSERT_EQ(reports.size(), 1u);
       glass::FilmReport expected = reference.run(order);
-      const glass::FilmReport& got = reports[0];
-      if (exact) expectSame(got, expected);
+      for (const auto& film : films) {
+        const glass::FilmReport got = reportOf(*film, order);
+        if (exact) expectSame(got, expected);
+      }
       for (const shared::FilmTile& tile : expected.tiles) events += tile.event_texel >= 0 ? 1 : 0;
       for (const int v : expected.taken_pl) took += v;
       for (const shared::SweptRange& range : order.sweep_ranges) swept += range.count;
@@ -182,11 +197,13 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
       sim.deliver(std::move(expected));
     }
   }
-  if (exact) {
-    EXPECT_EQ(gpu.readFilm(), reference.film);
-    EXPECT_EQ(gpu.readBeads(), reference.beads);
+  for (const auto& film : films) {
+    if (exact) {
+      EXPECT_EQ(film->readFilm(), reference.film);
+      EXPECT_EQ(film->readBeads(), reference.beads);
+    }
+    expectAlike(film->readFilm(), reference.film, "film");
   }
-  expectAlike(gpu.readFilm(), reference.film, "film");
   // All kinds of orders were there.
   EXPECT_GT(took, 0);
   EXPECT_GT(swept, 0);
@@ -201,7 +218,7 @@ TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
   const Mesh mesh = windscreen(0.3, 0.2, rad(30));
   glass::PaneSim sim(filmOnly(mesh), 1, 7);
   FilmReference reference(sim.map(), sim.unevenness());
-  glass::FilmGl gpu(gl, glass::makeFilmPrograms(gl), sim.map(), sim.unevenness());
+  const auto films = filmsOf(gl, sim);
   shared::FilmStepInfo info{};
   info.columns = sim.map().grid().size.x;
   info.rows = sim.map().grid().size.y;
@@ -224,13 +241,46 @@ TEST_F(Film, fallsAsleepAndWakesTheSameOnGpuAndCpu) {
       order.adds.push_back({middle + static_cast<int>(h >> 8) % 40, h % 2 == 0 ? 2'000'000 : 20'000});
       if (order.adds[1].texel == middle) order.adds.pop_back();
     }
-    std::vector<glass::FilmOrder> copy{order};
-    gpu.run(std::move(copy));
-    ASSERT_EQ(gpu.collect(true).size(), 1u);
     reference.run(order);
-    ASSERT_EQ(gpu.readFilm(), reference.film) << "step " << step;
-    ASSERT_EQ(gpu.readBeads(), reference.beads) << "step " << step;
+    for (const auto& film : films) {
+      reportOf(*film, order);
+      ASSERT_EQ(film->readFilm(), reference.film) << "step " << step;
+      ASSERT_EQ(film->readBeads(), reference.beads) << "step " << step;
+    }
   }
+}
+
+// Many fast drops on a fine grid ask for many texels in one step: all of them get what lies there.
+TEST_F(Film, anyNumberOfTexelsIsTakenInAStep) {
+  constexpr int kEach_pl = 1000, kTakes = 6000;
+  const Mesh mesh = windscreen(0.3, 0.2, rad(30));
+  glass::PaneInfo pane = filmOnly(mesh);
+  pane.texel_m = 2e-3;
+  glass::PaneSim sim(pane, 1, 7);
+  glass::Ledger ledger;
+  glass::FilmLink link(sim.map(), ledger);
+  link.attach();
+  glass::FilmGl film(gl, glass::makeFilmPrograms(gl), sim.map(), sim.unevenness());
+  std::vector<int> texels;
+  for (int i = 0; i < sim.map().texelCount() && texels.size() < kTakes; ++i) {
+    if (sim.map().inside(i)) texels.push_back(i);
+  }
+  ASSERT_EQ(texels.size(), kTakes);
+  shared::FilmStepInfo info{};
+  info.columns = sim.map().grid().size.x;
+  info.rows = sim.map().grid().size.y;
+  info.pin_m = 3e-6f;  // thicker than what lies there
+  for (int64_t step = 0; step < 2; ++step) {
+    for (const int texel : texels) {
+      if (step == 0) link.add(texel, kEach_pl);
+      if (step == 1) link.take(texel, 1.0, 0, 0);
+    }
+    link.close(step, std::vector<shared::vec4>(sim.map().nodes().size()), info);
+    film.run(link.fetch());
+  }
+  const std::vector<glass::FilmReport> first = film.collect(true), second = film.collect(true);
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].taken_pl, std::vector<int>(kTakes, kEach_pl));
 }
 
 // tau > (2/3) rho g h sin a turns the net flow of a film round (physics.md 4).

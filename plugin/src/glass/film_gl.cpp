@@ -5,12 +5,14 @@
 #include <string>
 #include <utility>
 
+#include "gl/loader.h"
+
 namespace rg::glass {
 namespace {
 
 constexpr size_t kStepsInBatch = 16;
 constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 6 * sizeof(int32_t);  // TileState in film_buffers.glsl
+constexpr size_t kTileStateBytes = 11 * sizeof(int32_t);  // TileState in film_buffers.glsl
 constexpr std::array<uint32_t, 16> kNoneAwake{
     0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns, and those that dry
 constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
@@ -37,16 +39,19 @@ struct UploadLayout {
 
 // Where the parts of a report lie, from its start.
 struct ReportLayout {
-  explicit ReportLayout(size_t tiles)
+  ReportLayout(size_t tiles, size_t takes)
       : ridges(aligned(tiles * sizeof(shared::FilmTile))),
         taken(ridges + aligned(kRidgeBytes)),
-        bytes(taken + aligned(kMostTakes * sizeof(int))) {}
-  size_t ridges, taken, bytes;
+        taken_bytes(aligned(std::max<size_t>(takes, 1) * sizeof(int))),
+        bytes(taken + taken_bytes) {}
+  size_t ridges, taken, taken_bytes, bytes;
 };
 
-std::vector<std::string> defines(FilmKernel leaky) {
-  if (leaky == FilmKernel::none) return {};
-  return {"RG_LEAK " + std::to_string(static_cast<int>(leaky))};
+std::vector<std::string> defines(FilmKernel leaky, bool software) {
+  std::vector<std::string> all;
+  if (software) all.emplace_back("RG_SOFTWARE_GL");
+  if (leaky != FilmKernel::none) all.push_back("RG_LEAK " + std::to_string(static_cast<int>(leaky)));
+  return all;
 }
 
 template <typename T>
@@ -76,16 +81,17 @@ std::vector<uint32_t> stripCodes(const PaneMap& map, const UnevenGlass& glass) {
 
 }  // namespace
 
-FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky)
-    : change(gl, {"glass/film_change.comp"}, defines(leaky)),
-      sweep(gl, {"glass/film_sweep.comp"}, defines(leaky)),
-      leave(gl, {"glass/film_leave.comp"}, defines(leaky)),
-      wake(gl, {"glass/film_wake.comp"}),
-      dry(gl, {"glass/film_dry.comp"}),
-      flow(gl, {"glass/film_flow.comp"}, defines(leaky)) {}
+FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software)
+    : change(gl, {"glass/film_change.comp"}, defines(leaky, software)),
+      sweep(gl, {"glass/film_sweep.comp"}, defines(leaky, software)),
+      leave(gl, {"glass/film_leave.comp"}, defines(leaky, software)),
+      wake(gl, {"glass/film_wake.comp"}, defines(leaky, software)),
+      dry(gl, {"glass/film_dry.comp"}, defines(leaky, software)),
+      flow(gl, {"glass/film_flow.comp"}, defines(leaky, software)) {}
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
-  return std::make_shared<FilmPrograms>(gl, leaky);
+  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+  return std::make_shared<FilmPrograms>(gl, leaky, renderer != nullptr && gl::isSoftwareRenderer(renderer));
 }
 
 void abandonFilmPrograms(FilmPrograms& p) {
@@ -112,7 +118,8 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       beads_picture_(gl, GL_R32UI, map.grid().size.x, map.grid().size.y),
       change_of_(static_cast<size_t>(map.texelCount()), -1) {
   metric_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), metric_, 0, metric_.bytes());
-  glass_strips_.show(GL_R32UI, sizeof(uint32_t), glass_, 0, glass_.bytes());
+  glass_strips_.show(GL_RGBA32UI, shared::kTileSize / shared::kStripSize * sizeof(uint32_t), glass_, 0,
+                     glass_.bytes());
   for (size_t i = 0; i < film_.size(); ++i) {
     film_[i] = gl::Buffer(gl, tiles_ * kTileTexels * sizeof(int32_t));
     film_strips_[i] = gl::BufferTexture(gl);
@@ -151,10 +158,11 @@ void FilmGl::run(std::vector<FilmOrder>&& orders) {
 
 void FilmGl::runBatch(std::span<FilmOrder> orders) {
   std::vector<size_t> starts, change_counts;
-  size_t bytes = 0;
+  size_t bytes = 0, report_bytes = 0;
   for (const FilmOrder& order : orders) {
     starts.push_back(bytes);
     bytes += UploadLayout(order).bytes;
+    report_bytes += ReportLayout(tiles_, order.takes.size()).bytes;
   }
   std::vector<unsigned char> upload(bytes);
   for (size_t i = 0; i < orders.size(); ++i) {
@@ -169,9 +177,9 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
     put(upload, starts[i] + at.leaves, order.leaves.data(), order.leaves.size());
     put(upload, starts[i] + at.texels, order.leave_texels.data(), order.leave_texels.size());
   }
-  std::unique_ptr<Batch> batch = freeBatch(bytes);
+  std::unique_ptr<Batch> batch = freeBatch(bytes, report_bytes);
   batch->upload.write(0, upload.data(), bytes);
-  const ReportLayout report(tiles_);
+  size_t report_at = 0;
   for (size_t i = 0; i < orders.size(); ++i) {
     if (orders[i].clear) clear();
     if (!orders[i].adds.empty() || !orders[i].bead_adds.empty() || !orders[i].ridge_adds.empty()) {
@@ -179,8 +187,9 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
       watered_step_ = orders[i].step;
     }
     const bool asleep = dry_ && orders[i].slid.empty();
-    if (!asleep) runStep(orders[i], change_counts[i], *batch, starts[i], i * report.bytes);
-    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, asleep});
+    if (!asleep) runStep(orders[i], change_counts[i], *batch, starts[i], report_at);
+    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, asleep, report_at});
+    report_at += ReportLayout(tiles_, orders[i].takes.size()).bytes;
   }
   gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -220,7 +229,7 @@ std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
   return changes;
 }
 
-std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes) {
+std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes, size_t report_bytes) {
   std::unique_ptr<Batch> batch;
   if (free_.empty()) {
     batch = std::make_unique<Batch>();
@@ -229,9 +238,9 @@ std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes) {
     free_.pop_back();
   }
   if (batch->upload.bytes() < upload_bytes) batch->upload = gl::Buffer(gl_, upload_bytes + upload_bytes / 2);
-  if (batch->mapped == nullptr) {
+  if (batch->report.bytes() < report_bytes) {
     constexpr GLbitfield kRead = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    const size_t bytes = ReportLayout(tiles_).bytes * kStepsInBatch;
+    const size_t bytes = report_bytes + report_bytes / 2;
     batch->report = gl::Buffer(gl_, bytes, kRead);
     batch->mapped = static_cast<const unsigned char*>(batch->report.map(0, bytes, kRead));
   }
@@ -250,7 +259,7 @@ void FilmGl::dispatch(const gl::Program& program, size_t count) {
 void FilmGl::runStep(const FilmOrder& order, size_t changes, const Batch& batch, size_t upload_at,
                      size_t report_at) {
   const UploadLayout at(order);
-  const ReportLayout report(tiles_);
+  const ReportLayout report(tiles_, order.takes.size());
   const auto bind = [&](GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) {
     gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer.name(), static_cast<GLintptr>(offset),
                         static_cast<GLsizeiptr>(bytes));
@@ -264,7 +273,7 @@ void FilmGl::runStep(const FilmOrder& order, size_t changes, const Batch& batch,
   bind(6, beads_, 0, beads_.bytes());
   if (changes > 0) {
     orders(at.changes, changes * sizeof(shared::FilmChange));
-    bind(2, batch.report, report_at + report.taken, kMostTakes * sizeof(int));
+    bind(2, batch.report, report_at + report.taken, report.taken_bytes);
     dispatch(programs_->change, changes);
   }
   for (const SweepOrder& sweep : order.sweeps) {
@@ -300,7 +309,7 @@ void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, s
   image(1, metric_nodes_, GL_RGBA32F);
   image(2, drive_nodes_, GL_RGBA32F);
   image(3, beads_strips_, GL_RGBA32UI);
-  image(4, glass_strips_, GL_R32UI);
+  image(4, glass_strips_, GL_RGBA32UI);
   gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
                       static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, awake_.name());
@@ -353,8 +362,8 @@ GLuint FilmGl::sweptBuffer(const SweepOrder& order) {
 }
 
 FilmReport FilmGl::read(const Batch& batch, size_t index) {
-  const ReportLayout at(tiles_);
-  const unsigned char* from = batch.mapped + index * at.bytes;
+  const ReportLayout at(tiles_, batch.steps[index].takes);
+  const unsigned char* from = batch.mapped + batch.steps[index].report_at;
   FilmReport report;
   report.step = batch.steps[index].step;
   if (batch.steps[index].asleep) {

@@ -19,7 +19,8 @@ namespace rg::glass {
 
 class FilmPrograms {
  public:
-  FilmPrograms(const GladGLContext& gl, FilmKernel leaky);
+  // `software`: shared out among invocations as suits a CPU; what they work out is the same.
+  FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software);
   gl::Program change, sweep, leave, wake, dry, flow;
 };
 
@@ -52,7 +53,8 @@ class FilmGl {
       int64_t step;
       size_t takes;
       bool clear;
-      bool asleep;  // nothing ran: the pane was dry
+      bool asleep;       // nothing ran: the pane was dry
+      size_t report_at;  // in the batch's
     };
     std::vector<Step> steps;
   };
@@ -71,7 +73,7 @@ class FilmGl {
   void show(const gl::Buffer& texels, GLenum type, gl::Texture2D& picture);
   template <typename T>
   std::vector<T> readTexels(const gl::Buffer& texels) const;
-  std::unique_ptr<Batch> freeBatch(size_t upload_bytes);
+  std::unique_ptr<Batch> freeBatch(size_t upload_bytes, size_t report_bytes);
   FilmReport read(const Batch& batch, size_t index);
   GLuint sweptBuffer(const SweepOrder& order);
   void dispatch(const gl::Program& program, size_t count);

@@ -133,7 +133,7 @@ void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int
 }
 
 void FilmLink::take(int texel, double share, uint32_t slot, uint32_t life) {
-  if (!attached_ || takers_.size() >= kMostTakes) return;
+  if (!attached_) return;
   int64_t& taken_in = taken_in_[static_cast<size_t>(texel)];
   if (taken_in == next_step_) return;
   taken_in = next_step_;

@@ -16,8 +16,6 @@ inline constexpr int kTicksPerFilmStep = 2;
 // anything was.
 inline constexpr int kReportLatency_ticks = 16;
 inline constexpr int kRidgePieces = shared::kMaxGlassWipers * shared::kBladeSegments;
-inline constexpr size_t kMostTakes =
-    4096;  // of a step; drops that come later run over the film without taking it
 
 // A blade's way in terms of its list of swept texels; no texel twice.
 struct SweepOrder {
