@@ -165,7 +165,9 @@ void Frame::stepGpu() {
     const std::lock_guard lock(sim_);
     syncPanes(gl);
   }
-  for (auto& [id, half] : gl.panes) half.gl->step();
+  std::vector<glass::PaneGl*> panes;
+  for (auto& [id, half] : gl.panes) panes.push_back(half.gl.get());
+  glass::PaneGl::step(panes);
   gl::throwOnError(gl.context->gl, "step_gpu");
 }
 

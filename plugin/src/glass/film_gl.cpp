@@ -6,46 +6,10 @@
 #include <utility>
 
 #include "gl/loader.h"
+#include "glass/film_layout.h"
 
 namespace rg::glass {
 namespace {
-
-constexpr size_t kStepsInBatch = 16;
-constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-constexpr size_t kTileStateBytes = 11 * sizeof(int32_t);  // TileState in film_buffers.glsl
-constexpr std::array<uint32_t, 16> kNoneAwake{
-    0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles there, of both turns, and those that dry
-constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
-constexpr size_t kRidgeBytes = (kRidgePieces + 2) * sizeof(int32_t);  // and two parts of what is wiped off
-
-size_t aligned(size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
-
-// Where the parts of an order lie in the upload, from its start.
-struct UploadLayout {
-  explicit UploadLayout(const FilmOrder& order) {
-    info = next(sizeof(shared::FilmStepInfo));
-    drive = next(order.drive.size() * sizeof(shared::vec4));
-    changes = next((order.takes.size() + order.slid.size() + order.adds.size() + order.bead_adds.size() +
-                    order.ridge_adds.size()) *
-                   sizeof(shared::FilmChange));
-    ranges = next(order.sweep_ranges.size() * sizeof(shared::SweptRange));
-    leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
-    texels = next(order.leave_texels.size() * sizeof(int));
-  }
-  size_t next(size_t part) { return std::exchange(bytes, bytes + aligned(part)); }
-  size_t bytes = 0;
-  size_t info, drive, changes, ranges, leaves, texels;  // of changes there may be fewer
-};
-
-// Where the parts of a report lie, from its start.
-struct ReportLayout {
-  ReportLayout(size_t tiles, size_t takes)
-      : ridges(aligned(tiles * sizeof(shared::FilmTile))),
-        taken(ridges + aligned(kRidgeBytes)),
-        taken_bytes(aligned(std::max<size_t>(takes, 1) * sizeof(int))),
-        bytes(taken + taken_bytes) {}
-  size_t ridges, taken, taken_bytes, bytes;
-};
 
 std::vector<std::string> defines(FilmKernel leaky, bool software) {
   std::vector<std::string> all;
@@ -150,51 +114,50 @@ void FilmGl::clear() {
   picture_is_old_ = beads_picture_is_old_ = true;
 }
 
-void FilmGl::run(std::vector<FilmOrder>&& orders) {
-  for (size_t first = 0; first < orders.size(); first += kStepsInBatch) {
-    runBatch(std::span(orders).subspan(first, std::min(kStepsInBatch, orders.size() - first)));
-  }
-}
-
-void FilmGl::runBatch(std::span<FilmOrder> orders) {
-  std::vector<size_t> starts, change_counts;
+// Orders of up to kStepsInBatch steps, uploaded.
+std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
+  std::vector<Step> steps;
   size_t bytes = 0, report_bytes = 0;
   for (const FilmOrder& order : orders) {
-    starts.push_back(bytes);
+    steps.push_back({this, &order, 0, bytes, report_bytes});
     bytes += UploadLayout(order).bytes;
     report_bytes += ReportLayout(tiles_, order.takes.size()).bytes;
   }
   std::vector<unsigned char> upload(bytes);
-  for (size_t i = 0; i < orders.size(); ++i) {
-    const FilmOrder& order = orders[i];
+  for (Step& step : steps) {
+    const FilmOrder& order = *step.order;
     const UploadLayout at(order);
-    put(upload, starts[i] + at.info, &order.info, 1);
-    put(upload, starts[i] + at.drive, order.drive.data(), order.drive.size());
     const std::vector<shared::FilmChange> changes = changesOf(order);
-    put(upload, starts[i] + at.changes, changes.data(), changes.size());
-    change_counts.push_back(changes.size());
-    put(upload, starts[i] + at.ranges, order.sweep_ranges.data(), order.sweep_ranges.size());
-    put(upload, starts[i] + at.leaves, order.leaves.data(), order.leaves.size());
-    put(upload, starts[i] + at.texels, order.leave_texels.data(), order.leave_texels.size());
+    step.changes = changes.size();
+    const size_t start = step.upload_at;
+    put(upload, start + at.info, &order.info, 1);
+    put(upload, start + at.drive, order.drive.data(), order.drive.size());
+    put(upload, start + at.changes, changes.data(), changes.size());
+    put(upload, start + at.ranges, order.sweep_ranges.data(), order.sweep_ranges.size());
+    put(upload, start + at.leaves, order.leaves.data(), order.leaves.size());
+    put(upload, start + at.texels, order.leave_texels.data(), order.leave_texels.size());
   }
-  std::unique_ptr<Batch> batch = freeBatch(bytes, report_bytes);
-  batch->upload.write(0, upload.data(), bytes);
-  size_t report_at = 0;
-  for (size_t i = 0; i < orders.size(); ++i) {
-    if (orders[i].clear) clear();
-    if (!orders[i].adds.empty() || !orders[i].bead_adds.empty() || !orders[i].ridge_adds.empty()) {
-      dry_ = false;
-      watered_step_ = orders[i].step;
-    }
-    const bool asleep = dry_ && orders[i].slid.empty();
-    if (!asleep) runStep(orders[i], change_counts[i], *batch, starts[i], report_at);
-    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, asleep, report_at});
-    report_at += ReportLayout(tiles_, orders[i].takes.size()).bytes;
+  begun_ = freeBatch(bytes, report_bytes);
+  begun_->upload.write(0, upload.data(), bytes);
+  return steps;
+}
+
+// False when nothing runs: the pane is dry.
+bool FilmGl::wakes(const Step& step) {
+  const FilmOrder& order = *step.order;
+  if (order.clear) clear();
+  if (!order.adds.empty() || !order.bead_adds.empty() || !order.ridge_adds.empty()) {
+    dry_ = false;
+    watered_step_ = order.step;
   }
-  gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
-                    GL_BUFFER_UPDATE_BARRIER_BIT);
-  batch->fence = gl::Fence(gl_);
-  pending_.push_back(std::move(batch));
+  const bool asleep = dry_ && order.slid.empty();
+  begun_->steps.push_back({order.step, order.takes.size(), order.clear, asleep, step.report_at});
+  return !asleep;
+}
+
+void FilmGl::end() {
+  begun_->fence = gl::Fence(gl_);
+  pending_.push_back(std::move(begun_));
 }
 
 // What happens to a texel in a step comes together: what is taken from it, then what it is given. Off the
@@ -246,91 +209,6 @@ std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes, size_t rep
   }
   batch->steps.clear();
   return batch;
-}
-
-void FilmGl::dispatch(const gl::Program& program, size_t count) {
-  program.set(0, static_cast<int32_t>(count));
-  program.set(1, static_cast<int32_t>(turn_));
-  program.use();
-  gl_.DispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
-  gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
-void FilmGl::runStep(const FilmOrder& order, size_t changes, const Batch& batch, size_t upload_at,
-                     size_t report_at) {
-  const UploadLayout at(order);
-  const ReportLayout report(tiles_, order.takes.size());
-  const auto bind = [&](GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) {
-    gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer.name(), static_cast<GLintptr>(offset),
-                        static_cast<GLsizeiptr>(bytes));
-  };
-  const auto orders = [&](size_t part, size_t bytes) { bind(0, batch.upload, upload_at + part, bytes); };
-  gl_.BindBufferRange(GL_UNIFORM_BUFFER, 0, batch.upload.name(), static_cast<GLintptr>(upload_at + at.info),
-                      sizeof(shared::FilmStepInfo));
-  bind(1, ridges_, 0, kRidgeBytes);
-  bind(3, film_[turn_], 0, film_[turn_].bytes());
-  bind(5, states_, 0, tiles_ * kTileStateBytes);
-  bind(6, beads_, 0, beads_.bytes());
-  if (changes > 0) {
-    orders(at.changes, changes * sizeof(shared::FilmChange));
-    bind(2, batch.report, report_at + report.taken, report.taken_bytes);
-    dispatch(programs_->change, changes);
-  }
-  for (const SweepOrder& sweep : order.sweeps) {
-    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, sweptBuffer(sweep));
-    // One work group sweeps, an invocation for each piece; so many ranges keep offsets aligned.
-    constexpr size_t kRanges = shared::kBladeSegments * sizeof(shared::SweptRange);
-    static_assert(kRanges % kAlign == 0);
-    bind(2, batch.upload,
-         upload_at + at.ranges + static_cast<size_t>(sweep.first_range) * sizeof(shared::SweptRange),
-         kRanges);
-    programs_->sweep.set(2, sweep.first_piece);
-    programs_->sweep.set(3, static_cast<int32_t>(sweep.backwards));
-    dispatch(programs_->sweep, 1);
-  }
-  if (!order.leaves.empty()) {
-    orders(at.leaves, order.leaves.size() * sizeof(shared::RidgeLeave));
-    bind(2, batch.upload, upload_at + at.texels,
-         std::max(sizeof(int), order.leave_texels.size() * sizeof(int)));
-    dispatch(programs_->leave, order.leaves.size());
-  }
-  flow(order, batch, upload_at + at.drive, report_at);
-  gl_.CopyNamedBufferSubData(ridges_.name(), batch.report.name(), 0,
-                             static_cast<GLintptr>(report_at + report.ridges), kRidgeBytes);
-}
-
-void FilmGl::flow(const FilmOrder& order, const Batch& batch, size_t drive_at, size_t report_at) {
-  const auto image = [&](GLuint unit, const gl::BufferTexture& texture, GLenum format) {
-    gl_.BindImageTexture(unit, texture.name(), 0, GL_FALSE, 0, GL_READ_ONLY, format);
-  };
-  drive_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), batch.upload, drive_at,
-                    order.drive.size() * sizeof(shared::vec4));
-  image(0, film_strips_[turn_], GL_RGBA32I);
-  image(1, metric_nodes_, GL_RGBA32F);
-  image(2, drive_nodes_, GL_RGBA32F);
-  image(3, beads_strips_, GL_RGBA32UI);
-  image(4, glass_strips_, GL_RGBA32UI);
-  gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, batch.report.name(), static_cast<GLintptr>(report_at),
-                      static_cast<GLsizeiptr>(tiles_ * sizeof(shared::FilmTile)));
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, awake_.name());
-  dispatch(programs_->wake, tiles_);
-  const auto dispatchListed = [&](const gl::Program& program, GLintptr command) {
-    program.set(1, static_cast<int32_t>(turn_));
-    program.use();
-    gl_.DispatchComputeIndirect(command);
-    gl_.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                      GL_BUFFER_UPDATE_BARRIER_BIT);
-  };
-  gl_.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
-  gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, awake_.name());
-  const auto awake_at = static_cast<GLintptr>(turn_ * sizeof kNoneAwake / 4);
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, film_[1 - turn_].name());
-  programs_->dry.set(0, static_cast<int32_t>(tiles_));
-  dispatchListed(programs_->dry, awake_at + static_cast<GLintptr>(sizeof kNoneAwake / 2));
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, film_[1 - turn_].name());
-  dispatchListed(programs_->flow, awake_at);
-  turn_ = 1 - turn_;
-  picture_is_old_ = beads_picture_is_old_ = true;
 }
 
 const gl::Texture2D& FilmGl::picture() {

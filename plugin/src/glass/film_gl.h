@@ -31,6 +31,8 @@ class FilmGl {
 
   // Puts the steps in the GPU's queue, as batches.
   void run(std::vector<FilmOrder>&& orders);
+  // The same of several films, of each the orders in its place: side by side. They share their context.
+  static void runTogether(std::span<FilmGl* const> films, std::span<const std::vector<FilmOrder>> orders);
   bool pending() const { return !pending_.empty(); }
   // Reports of the oldest batch once the GPU is done with it; `wait` waits for it. Empty: not yet.
   std::vector<FilmReport> collect(bool wait);
@@ -63,10 +65,32 @@ class FilmGl {
     gl::Buffer buffer;
   };
 
-  void runBatch(std::span<FilmOrder> orders);
-  void runStep(const FilmOrder& order, size_t changes, const Batch& batch, size_t upload_at,
-               size_t report_at);
-  void flow(const FilmOrder& order, const Batch& batch, size_t drive_at, size_t report_at);
+  // One of those in the batch that is begun.
+  struct Step {
+    FilmGl* film;
+    const FilmOrder* order;
+    size_t changes;
+    size_t upload_at, report_at;  // in the batch's buffers
+  };
+
+  std::vector<Step> begin(std::span<const FilmOrder> orders);
+  bool wakes(const Step& step);
+  void end();
+  // Kernels: false when there is nothing for one to do. film_step_gl.cpp has them, and their order.
+  static void step(std::span<const Step> steps);
+  bool change(const Step& step);
+  void sweep(const Step& step, const SweepOrder& sweep);
+  bool leave(const Step& step);
+  bool wake(const Step& step);
+  bool dry(const Step& step);
+  bool flow(const Step& step);
+  void tellRidges(const Step& step);
+  void bind(GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) const;
+  void bindState(const Step& step) const;
+  void bindFlow(const Step& step);
+  void dispatch(const gl::Program& program, size_t count) const;
+  void dispatchListed(const gl::Program& program, size_t command_at) const;
+
   void clear();
   std::vector<shared::FilmChange> changesOf(const FilmOrder& order);
   size_t place(int texel) const;
@@ -76,7 +100,6 @@ class FilmGl {
   std::unique_ptr<Batch> freeBatch(size_t upload_bytes, size_t report_bytes);
   FilmReport read(const Batch& batch, size_t index);
   GLuint sweptBuffer(const SweepOrder& order);
-  void dispatch(const gl::Program& program, size_t count);
 
   const GladGLContext& gl_;
   std::shared_ptr<FilmPrograms> programs_;
@@ -94,6 +117,7 @@ class FilmGl {
   bool picture_is_old_ = true, beads_picture_is_old_ = true;
   std::vector<int> change_of_;  // texel: its place among a step's changes, -1 between steps
   std::vector<Swept> swept_;
+  std::unique_ptr<Batch> begun_;
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;
   std::array<uint32_t, 2> wiped_before_{};

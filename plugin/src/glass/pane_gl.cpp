@@ -94,7 +94,6 @@ struct PaneGl::Parts {
     open(0.0);
   }
 
-  void run(bool wait_for_all);
   void uploadDrops();
   template <class Record>
   void upload(gl::Buffer& to, const std::vector<Record>& records) const;
@@ -116,18 +115,6 @@ PaneGl::PaneGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
 }
 
 PaneGl::~PaneGl() { parts_->sim->detachFilm(); }
-
-// Ticks wait for reports, reports for steps, steps for the orders of ticks: round and round until no tick
-// waits.
-void PaneGl::Parts::run(bool wait_for_all) {
-  for (;;) {
-    film.run(sim->fetchOrders());
-    const bool must_wait = wait_for_all || sim->waiting();
-    std::vector<FilmReport> reports = film.collect(must_wait);
-    if (reports.empty()) break;
-    for (FilmReport& report : reports) sim->deliver(std::move(report));
-  }
-}
 
 template <class Record>
 void PaneGl::Parts::upload(gl::Buffer& to, const std::vector<Record>& records) const {
@@ -165,14 +152,37 @@ void PaneGl::Parts::open(double to_m) {
 
 void PaneGl::open(double opening_m) { parts_->open(opening_m); }
 
+// Ticks wait for reports, reports for steps, steps for the orders of ticks: round and round until no tick
+// waits.
+void PaneGl::run(std::span<PaneGl* const> panes, bool wait_for_all) {
+  std::vector<FilmGl*> films;
+  for (PaneGl* pane : panes) films.push_back(&pane->parts_->film);
+  for (bool goes_on = true; goes_on;) {
+    std::vector<std::vector<FilmOrder>> orders;
+    for (PaneGl* pane : panes) orders.push_back(pane->parts_->sim->fetchOrders());
+    FilmGl::runTogether(films, orders);
+    goes_on = false;
+    for (PaneGl* pane : panes) {
+      Parts& p = *pane->parts_;
+      for (FilmReport& report : p.film.collect(wait_for_all || p.sim->waiting())) {
+        p.sim->deliver(std::move(report));
+        goes_on = true;
+      }
+    }
+  }
+  for (PaneGl* pane : panes) pane->parts_->uploadDrops();
+}
+
+void PaneGl::step(std::span<PaneGl* const> panes) { run(panes, false); }
+
 void PaneGl::step() {
-  parts_->run(false);
-  parts_->uploadDrops();
+  PaneGl* self = this;
+  run(std::span(&self, 1), false);
 }
 
 void PaneGl::finish() {
-  parts_->run(true);
-  parts_->uploadDrops();
+  PaneGl* self = this;
+  run(std::span(&self, 1), true);
 }
 
 PaneDrawn PaneGl::drawn() const {

@@ -63,10 +63,11 @@ class PaneGl {
   PaneGl(const PaneGl&) = delete;
   PaneGl& operator=(const PaneGl&) = delete;
 
-  // Runs the film's steps that were ordered, hands back reports that are ready and waits for those a queued
-  // tick wants. Uploads drops.
-  void step();
-  // As step, and waits for all: afterwards PaneSim::stats is exact.
+  // Runs the film's steps that were ordered, of all these panes side by side, hands back reports that are
+  // ready and waits for those a queued tick wants. Uploads drops. The panes share programs and context.
+  static void step(std::span<PaneGl* const> panes);
+  void step();  // of this one
+  // As that, and waits for all: afterwards PaneSim::stats is exact.
   void finish();
 
   // Draws the glass slid so far, and no more of it than is before the sill.
@@ -83,6 +84,7 @@ class PaneGl {
   void abandon();
 
  private:
+  static void run(std::span<PaneGl* const> panes, bool wait_for_all);
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
