@@ -77,6 +77,29 @@ TEST_F(Pane, ledgerClosesWhenTheFilmIsLost) {
   EXPECT_EQ(s.caught_pl, sumOf(s));
 }
 
+// Panes of other sizes, weather and numbers of steps, one with a wiper: no kernel touches another's film.
+TEST_F(Pane, panesSteppedSideBySideAreAsEachAlone) {
+  const Mesh large = windscreen(0.4, 0.3), small = windscreen(0.2, 0.15);
+  const auto hashes = [&](bool together) {
+    Simulation a(gl, paneInfo(large)), b(gl, paneInfo(small));
+    a.sim->setWiper(3, wiper(rad(30), 0.3));
+    const WiperMotor motor(3, rad(20), rad(150), 70.0);
+    for (int i = 0; i < 90; ++i) {
+      a.tick(weather(100.0, 20.0), &motor);
+      if (i >= 40) b.tick(weather(60.0));
+      if (i % 7 != 0) continue;
+      glass::PaneGl* const both[] = {&a.pane, &b.pane};
+      if (together) {
+        glass::PaneGl::step(both);
+      } else {
+        for (glass::PaneGl* pane : both) pane->step();
+      }
+    }
+    return std::array{a.pane.hash(), b.pane.hash(), a.sim->hash(), b.sim->hash()};
+  };
+  EXPECT_EQ(hashes(true), hashes(false));
+}
+
 TEST(PaneAlone, runsWithoutGl) {
   const Mesh mesh = windscreen(0.4, 0.3);
   glass::PaneSim sim(paneInfo(mesh), 1, 7);
