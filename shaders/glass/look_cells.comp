@@ -1,7 +1,9 @@
 // Which texels of each cell hold water that is seen, and whether a ridge may stand on it. An invocation is a cell.
 #include "optics/cells.glsl"
 #include "optics/look_frame.glsl"
+#ifdef RIDGES
 #include "optics/ridge.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 1) writeonly buffer Cells { uvec2 cells[]; };  // x: sixteen bits film, sixteen beads; y: 1: ridge
@@ -16,6 +18,7 @@ int thinnestSeen(ivec2 first, ivec2 last) {
   return int(0.99 * kDry_um * 1e-6 * area_m2 / frame.film_unit_m3);
 }
 
+#ifdef RIDGES
 bool nearBlade(ivec2 first, ivec2 last) {
   vec3 corner = texelFetch(pane_position, min(first, last), 0).xyz;
   vec3 opposite = texelFetch(pane_position, min(first + kCellSize, last), 0).xyz;
@@ -29,6 +32,9 @@ bool nearBlade(ivec2 first, ivec2 last) {
   }
   return near;
 }
+#else
+bool nearBlade(ivec2 first, ivec2 last) { return false; }
+#endif
 
 void main() {
   int cell = int(gl_GlobalInvocationID.x);

@@ -20,13 +20,13 @@ void main() {
   if (tile >= tiles.x * tiles.y) return;
   SeenTile t = seen[tile];
   if (t.whole != kDry) {
-    if (cell == 0) copyPiece(tile, t.first_index[listOf(t.whole)]);
+    if (cell == 0) copyPiece(tile, t.indices[listOf(t.whole)]);
     return;
   }
   uint kind = kindOf(t, cell);
   if (kind == kDry) return;
   int first_cell = tiles.x * tiles.y + tile * kCellsOfTile;
-  uint to = t.first_index[listOf(kind)];
+  uint to = t.indices[listOf(kind)];
   for (int c = 0; c < cell; ++c) {
     uint other = kindOf(t, c);
     if (other != kDry && listOf(other) == listOf(kind)) to += first_of_piece[first_cell + c + 1] - first_of_piece[first_cell + c];

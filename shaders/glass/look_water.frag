@@ -4,7 +4,11 @@
 #include "shared/glass_beads.glsl"
 
 layout(binding = 5) uniform usampler2D beads;
-layout(binding = 6) uniform sampler2D pane_position;
+
+in OverTile {
+  vec3 along_u, along_v;
+  float pixel_m;
+} i;
 
 layout(location = 0) out vec4 slope_thickness;  // xyz: gradient of the thickness along the glass, vehicle frame; w: thickness, um
 // x: number of beads, and half the share in which each is seen by itself; y, z: the mean bead's radius in texels; w: share of the glass that is
@@ -36,14 +40,13 @@ vec4 filmAt(ivec2 texel, vec4 metric) {
     }
   }
   vec2 slope = rise * 1e-6 / max(metric.xy, vec2(1e-6));
-  return vec4(gradientOf(slope, texel, metric), sum);
+  return vec4(gradientOf(slope, metric, i.along_u, i.along_v), sum);
 }
 
 vec4 beadsAt(ivec2 texel, vec4 metric) {
   Beads lying = beadsOf(texelFetch(beads, min(texel, textureSize(beads, 0) - 1), 0).r);
   float radius_m = lying.number == 0 ? 0.0 : 1e-3 * beadRadius_mm(lying, frame.bead_mm3_per_unit);
-  float pixel_m = distance(texelFetch(pane_position, texel, 0).xyz, frame.eye_in_vehicle.xyz) / frame.pixels_per_rad;
-  float whole = smoothstep(kHazy_px, kWhole_px, radius_m / pixel_m);
+  float whole = smoothstep(kHazy_px, kWhole_px, radius_m / i.pixel_m);
   float covered = min(float(lying.number) * 3.14159 * radius_m * radius_m / max(metric.w, 1e-12), 1.0);
   return vec4(float(lying.number) + 0.5 * whole, radius_m / max(metric.xy, vec2(1e-6)), covered * (1.0 - whole));
 }

@@ -23,11 +23,11 @@ RG_FN int listOf(uint kind) { return (kind & kRidge) != 0u ? kRidgeList : int(ki
 
 // A tile as it is to be drawn: as one piece, or its cells each for itself.
 struct SeenTile {
-  uvec4 first_index;  // of its part in each list
-  uint cells_low;     // kinds of its cells, four bits each
+  uvec4 indices;    // how many it has in each list; laid out, its first there
+  uint cells_low;   // kinds of its cells, four bits each
   uint cells_high;
-  uint whole;         // kind of all of it, else kDry
-  uint composed;      // 1: its water is looked at
+  uint whole;       // kind of all of it, else kDry
+  uint composed;    // the rectangle of its texels that is looked at: first, last + 1 along u, along v, a byte each
 };
 RG_SIZE(SeenTile, 32)
 

@@ -16,8 +16,9 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 10> kSources{
-    {{"glass/look_cells.comp", "", kPlain},
+constexpr std::array<Source, 11> kSources{
+    {{"glass/look_cells.comp", "", kRidges},
+     {"glass/look_kinds.comp", "", kPlain},
      {"glass/look_sort.comp", "", kPlain},
      {"glass/look_list.comp", "", kPlain},
      {"glass/look_water.vert", "glass/look_water.frag", kEverywhere},

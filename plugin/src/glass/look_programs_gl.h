@@ -12,7 +12,19 @@ struct GladGLContext;
 
 namespace rg::glass {
 
-enum class LookStage : uint8_t { cells, sort, list, water, craters, pane, fog, place, drops, small_drops };
+enum class LookStage : uint8_t {
+  cells,
+  kinds,
+  sort,
+  list,
+  water,
+  craters,
+  pane,
+  fog,
+  place,
+  drops,
+  small_drops
+};
 
 // Any of them together; those that a stage does not ask for make no difference to it.
 enum LookVariant : uint32_t {

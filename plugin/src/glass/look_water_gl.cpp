@@ -9,7 +9,8 @@
 namespace rg::glass {
 namespace {
 
-constexpr int kCellGroup = 64;  // of look_cells.comp and look_list.comp
+constexpr size_t kCellGroup = 64;  // of look_cells.comp and look_list.comp
+constexpr size_t kTileGroup = 32;  // of look_kinds.comp
 constexpr size_t kCellBytes = 8;
 constexpr size_t kCommandBytes = 20;
 
@@ -32,6 +33,7 @@ LookWater::LookWater(const GladGLContext& gl, LookPrograms& programs)
       programs_(&programs),
       no_layout_(gl),
       exact_(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
+      smooth_(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
       no_film_(gl, GL_R32I, 1, 1),
       no_beads_(gl, GL_R32UI, 1, 1),
       films_(gl, false),
@@ -56,6 +58,7 @@ void LookWater::bindMaps(const LookPane& pane) {
     gl_->BindTextureUnit(kFilmUnit + k, maps[k]);
     gl_->BindSampler(kFilmUnit + k, exact_.name());
   }
+  for (const GLuint unit : {kFrameUnit, kPositionUnit}) gl_->BindSampler(unit, smooth_.name());
 }
 
 void LookWater::sort(const LookPane& pane, int film_reach) {
@@ -66,10 +69,9 @@ void LookWater::sort(const LookPane& pane, int film_reach) {
   reserve(*gl_, tiles_, tile_count * sizeof(shared::SeenTile));
   reserve(*gl_, drawn_, static_cast<size_t>(pane.piece_index_count) * sizeof(uint32_t));
   reserve(*gl_, commands_, shared::kPieceLists * kCommandBytes);
-  const auto groups = static_cast<GLuint>((cell_count + kCellGroup - 1) / kCellGroup);
-  const auto run = [&](LookStage stage, GLuint group_count) {
-    programs_->use(stage).set(0, tiles);
-    gl_->DispatchCompute(group_count, 1, 1);
+  const auto run = [&](LookStage stage, size_t invocations, size_t group, uint32_t variant = kPlain) {
+    programs_->use(stage, variant).set(0, tiles);
+    gl_->DispatchCompute(static_cast<GLuint>((invocations + group - 1) / group), 1, 1);
     gl_->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   };
   const auto bind = [&](Binding binding, uint32_t buffer) {
@@ -79,12 +81,14 @@ void LookWater::sort(const LookPane& pane, int film_reach) {
   bind(kTiles, tiles_.name());
   bind(kPieces, pane.piece_buffer);
   bind(kLists, commands_.name());
-  run(LookStage::cells, groups);
-  programs_->use(LookStage::sort).set(1, film_reach);
-  run(LookStage::sort, 1);
+  run(LookStage::cells, cell_count, kCellGroup, pane.blades.empty() ? kPlain : kRidges);
+  programs_->use(LookStage::kinds).set(1, film_reach);
+  run(LookStage::kinds, tile_count, kTileGroup);
+  programs_->use(LookStage::sort).set(1, film_reach - 1);  // its surface is made of a texel's neighbours too
+  run(LookStage::sort, 1, 1);
   bind(kIndices, pane.index_buffer);
   bind(kLists, drawn_.name());
-  run(LookStage::list, groups);
+  run(LookStage::list, cell_count, kCellGroup);
   gl_->MemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
@@ -125,6 +129,7 @@ void LookWater::addCraters(const LookPane& pane) {
 void LookWater::forget() {
   no_layout_.forget();
   exact_.forget();
+  smooth_.forget();
   no_film_.forget();
   no_beads_.forget();
   films_.forget();

@@ -13,8 +13,8 @@ class LookWater {
   LookWater(const GladGLContext& gl, LookPrograms& programs);
 
   // Makes the pane's pictures of film and beads ready. `film_reach`: how many texels off film is seen; the
-  // look's frame is bound. Touches texture units 2 .. 6, storage buffers 0 .. 2 and 5 .. 7, framebuffer, viewport,
-  // blend, raster; depth is not tested then.
+  // look's frame is bound. Touches texture units 2 .. 6, storage buffers 0 .. 2 and 5 .. 7, framebuffer,
+  // viewport, blend, raster; depth is not tested then.
   void prepare(const LookPane& pane, int film_reach);
   // RGBA16F of the grid as look_water.frag writes them, of the pane prepared last.
   uint32_t film() const { return film_; }
@@ -36,7 +36,7 @@ class LookWater {
   const GladGLContext* gl_;
   LookPrograms* programs_;
   gl::VertexArray no_layout_;
-  gl::Sampler exact_;
+  gl::Sampler exact_, smooth_;
   gl::Texture2D no_film_, no_beads_;  // a dry texel
   Canvases films_, bead_maps_;
   gl::Framebuffer both_;
