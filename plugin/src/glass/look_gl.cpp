@@ -24,7 +24,8 @@ namespace rg::glass {
 namespace {
 
 constexpr int kMeshStride = 8 * sizeof(float);
-constexpr size_t kSeenDropBytes = 112;   // shaders/optics/seen_drop.glsl
+constexpr size_t kSeenDropBytes = 160;  // shaders/optics/seen_drop.glsl
+constexpr uintptr_t kArraysCommandBytes = 16;
 constexpr int kPlaceGroup = 64;          // drops in a group of look_place.comp
 constexpr float kCoarseTexel_px = 6.0f;  // a film of larger texels would show facets
 constexpr float kFineRadius_px = 3.0f;
@@ -131,7 +132,7 @@ struct GlassLook::Parts {
   void drawWater(const LookPane& pane);
   void drawPieces(const LookPane& pane);
   void placeDrops(const LookPane& pane);
-  void drawDrops(const LookPane& pane);
+  void drawDrops();
   void drawFog(const LookPane& pane);
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
@@ -140,7 +141,7 @@ struct GlassLook::Parts {
 
   const GladGLContext& gl;
   LookPrograms programs;
-  gl::Buffer frame_block, seen_drops;
+  gl::Buffer frame_block, seen_drops, drop_kinds, picked_drops, drop_commands;
   gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, stepped, mipped, exact;
   gl::TextureCube no_environment;  // black
@@ -291,8 +292,14 @@ void GlassLook::Parts::bindMesh(const LookPane& pane, uint32_t indices) {
 }
 
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
-  const size_t bytes = static_cast<size_t>(pane.drop_count) * kSeenDropBytes;
-  if (seen_drops.bytes() < bytes) seen_drops = gl::Buffer(gl, bytes + bytes / 2, 0);
+  const auto count = static_cast<size_t>(pane.drop_count);
+  const auto reserve = [&](gl::Buffer& buffer, size_t bytes) {
+    if (buffer.bytes() < bytes) buffer = gl::Buffer(gl, bytes + bytes / 2, 0);
+  };
+  reserve(seen_drops, count * kSeenDropBytes);
+  reserve(drop_kinds, count * sizeof(uint32_t));
+  reserve(picked_drops, 2 * count * sizeof(uint32_t));
+  reserve(drop_commands, 2 * kArraysCommandBytes);
   gl.BindTextureUnit(kFirst, pane.position);
   gl.BindTextureUnit(kSecond, pane.frame);
   gl.BindTextureUnit(kThird, pane.metric);
@@ -300,20 +307,28 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.drop_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen_drops.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, drop_kinds.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, picked_drops.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, drop_commands.name());
   gl.BindSampler(kPicture, mipped.name());
   programs.use(LookStage::place, variant);
   gl.DispatchCompute(static_cast<GLuint>(pane.drop_count + kPlaceGroup - 1) / kPlaceGroup, 1, 1);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  programs.use(LookStage::pick);
+  gl.DispatchCompute(1, 1, 1);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-void GlassLook::Parts::drawDrops(const LookPane& pane) {
+void GlassLook::Parts::drawDrops() {
   gl.Enablei(GL_BLEND, 0);
   gl.BindSampler(kPicture, mipped.name());
   gl.BindVertexArray(no_layout.name());
+  gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, drop_commands.name());
   programs.use(LookStage::small_drops);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3 * pane.drop_count);
+  gl.DrawArraysIndirect(GL_TRIANGLES, nullptr);
   programs.use(LookStage::drops, variant);
-  gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
+  gl.DrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(kArraysCommandBytes));
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's lists do not overtake these
 }
 
 // Between the eye and the water, of which it shows no more than of the rest: over the picture with both.
@@ -331,8 +346,8 @@ void GlassLook::Parts::drawFog(const LookPane& pane) {
 
 void GlassLook::Parts::forget() {
   programs.forget();
-  frame_block.forget();
-  seen_drops.forget();
+  for (gl::Buffer* buffer : {&frame_block, &seen_drops, &drop_kinds, &picked_drops, &drop_commands})
+    buffer->forget();
   mesh_layout.forget();
   no_layout.forget();
   for (gl::Sampler* sampler : {&smooth, &stepped, &mipped, &exact}) sampler->forget();
@@ -373,7 +388,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     p.drawWater(pane);
     if (pane.drop_count > 0) {
       p.placeDrops(pane);
-      p.drawDrops(pane);
+      p.drawDrops();
     }
     if (!pane.fog.covered.empty()) {
       p.picture.fetch(view.viewport_px, target, with_lamps);

@@ -16,7 +16,7 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 11> kSources{
+constexpr std::array<Source, 12> kSources{
     {{"glass/look_cells.comp", "", kRidges},
      {"glass/look_kinds.comp", "", kPlain},
      {"glass/look_sort.comp", "", kPlain},
@@ -27,6 +27,7 @@ constexpr std::array<Source, 11> kSources{
       kInside | kCoarse | kFilm | kBeads | kRidges | kMirror | kLit},
      {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
      {"glass/look_place.comp", "", kMirror | kLamps | kLit},
+     {"glass/look_pick.comp", "", kPlain},
      {"glass/look_drop.vert", "glass/look_drop.frag", kMirror | kLamps | kLit},
      {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
 

@@ -22,6 +22,7 @@ enum class LookStage : uint8_t {
   pane,
   fog,
   place,
+  pick,
   drops,
   small_drops
 };
