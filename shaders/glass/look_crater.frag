@@ -3,6 +3,8 @@
 #include "optics/film_slope.glsl"
 #include "shared/glass_crater.glsl"
 
+layout(binding = 3) uniform sampler2DArray pane_frame;
+
 in vec2 from_middle_m;
 flat in vec2 film_width_m;
 
@@ -15,5 +17,5 @@ void main() {
   float width2_m2 = film_width_m.y * film_width_m.y;
   float q = 0.5 * dot(from_middle_m, from_middle_m) / width2_m2;
   vec2 slope = left_m * craterSlope(q) / width2_m2 * from_middle_m;
-  slope_thickness = vec4(gradientOf(slope, texel, metric), left_m * 1e6 * craterHeight(q));
+  slope_thickness = vec4(gradientOf(slope, metric, texelFetch(pane_frame, ivec3(texel, 0), 0).xyz, texelFetch(pane_frame, ivec3(texel, 1), 0).xyz), left_m * 1e6 * craterHeight(q));
 }

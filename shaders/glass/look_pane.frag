@@ -2,12 +2,14 @@
 #include "optics/bead.glsl"
 #include "optics/bicubic.glsl"
 #include "optics/near.glsl"
+#ifdef RIDGES
 #include "optics/ridge.glsl"
+#endif
 #include "optics/surroundings.glsl"
 #include "shared/glass_tile.glsl"
 #include "shared/optics_drop.glsl"
 
-layout(binding = 2) uniform sampler2D film;  // of look_film.frag; empty where the pane has none
+layout(binding = 2) uniform sampler2D film;  // of look_water.frag
 
 in PaneToPixel {
   vec3 from_eye;
@@ -88,21 +90,47 @@ vec3 mirroredThrough(vec3 view, vec3 normal, vec3 surface, float spread_rad, vec
 }
 #endif
 
+#ifdef INSIDE
+// What the film shows of what lies behind the glass, bent at its surface; `blurred`: the same through droplets.
+vec3 throughFilm(vec2 at, vec3 view, float to_glass_m, float behind_m, vec3 within, vec3 normal, vec3 surface, out vec3 blurred) {
+  mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
+  vec3 transmitted = refract(within, -surface, kWaterIndex);
+  if (dot(transmitted, transmitted) < 0.5) transmitted = view;
+  float flat_reflectance = fresnel(max(dot(within, normal), 0.0), 1.0 / kWaterIndex);
+  float more = max(fresnel(max(dot(within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
+  // A view bent at the glass misses what stands close behind it by less than what is far.
+  float lever = behind_m / (behind_m + to_glass_m);
+  vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - at);
+  vec3 normal_eye = eye_from_vehicle * normal;
+  float spanned = spanned_px(at + shift);
+  float share = shareToBehind(at, shift, spanned, behind_m, normal_eye, dot(normal_eye, eye_from_vehicle * i.from_eye));
+  shift *= share;
+  if (share < 1.0) spanned = 1.0;
+  blurred = throughDroplets(at + shift);
+  // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
+  return mix(behind(at + shift, spanned), frame.cabin_share * blurred, more / (1.0 - flat_reflectance));
+}
+#endif
+
 void main() {
-#ifdef COARSE  // many pixels to a texel
+#ifndef FILM
+  vec4 water = vec4(0.0);
+#elif defined(COARSE)  // many pixels to a texel
   vec4 water = textureBicubic(film, i.uv);
 #else
   vec4 water = textureLod(film, i.uv, 0.0);
 #endif
+#ifdef RIDGES
   addRidges(i.from_eye + frame.eye_in_vehicle.xyz, water);
+#endif
   vec3 normal = normalize(i.normal);
   float to_glass_m = length(i.from_eye);
   vec3 view = i.from_eye / to_glass_m;
   vec2 place = i.uv * vec2(textureSize(beads, 0)), dx = dFdx(place), dy = dFdy(place);
-#ifdef BEADLESS
-  SeenBead bead = SeenBead(0.0, 0.0, vec2(0.0), 1.0);
-#else
+#ifdef BEADS
   SeenBead bead = seenBead(place, dx, dy);
+#else
+  SeenBead bead = SeenBead(0.0, 0.0, vec2(0.0), 1.0);
 #endif
   bool wet = water.w > kDry_um || bead.cover + bead.hazy > 0.0;
   float steep = length(water.xyz);
@@ -116,25 +144,20 @@ void main() {
   if (!wet) discard;
   // Through glass into water as if there were no glass (its faces are parallel), and out through the film's surface.
   vec3 within = refract(view, -normal, 1.0 / kWaterIndex);
-  vec3 transmitted = refract(within, -surface, kWaterIndex);
-  if (dot(transmitted, transmitted) < 0.5) transmitted = view;
-  float flat_reflectance = fresnel(max(dot(within, normal), 0.0), 1.0 / kWaterIndex);
-  float more = max(fresnel(max(dot(within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
   float behind_m = behindGlass_m(to_glass_m);
+#ifdef FILM
+  vec3 blurred;
+  vec3 light = throughFilm(at, view, to_glass_m, behind_m, within, normal, surface, blurred);
+#else  // as if there were no water
+  vec3 light = decode(texelFetch(picture, ivec2(gl_FragCoord.xy - frame.viewport.xy), 0).rgb);
+  vec3 blurred = throughDroplets(at);
+#endif
+#ifdef BEADS
   float far = 1.0 - nearness(behind_m, dot(view, normal));
-  // A view bent at the glass misses what stands close behind it by less than what is far.
-  float lever = behind_m / (behind_m + to_glass_m);
-  vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - at);
-  vec3 normal_eye = eye_from_vehicle * normal;
-  float spanned = spanned_px(at + shift);
-  float share = shareToBehind(at, shift, spanned, behind_m, normal_eye, dot(normal_eye, eye_from_vehicle * i.from_eye));
-  shift *= share;
-  if (share < 1.0) spanned = 1.0;
-  vec3 blurred = throughDroplets(at + shift);
-  vec3 light = mix(behind(at + shift, spanned), blurred, bead.hazy * far);
-  // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
-  light = mix(light, frame.cabin_share * blurred, more / (1.0 - flat_reflectance));
-  light = frame.brightness * mix(light, throughBead(bead, within, normal, cap), bead.cover * far);
+  light = mix(light, blurred, bead.hazy * far);
+  light = mix(light, throughBead(bead, within, normal, cap), bead.cover * far);
+#endif
+  light *= frame.brightness;
 #else
 #ifdef MIRROR
   if (!wet) discard;

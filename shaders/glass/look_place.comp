@@ -8,6 +8,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Drops { GlassDropRecord drops[]; };
 layout(std430, binding = 1) readonly buffer Mesh { float mesh[]; };  // x, y, z, nx, ny, nz, u, v of each vertex
 layout(std430, binding = 2) writeonly buffer Seen { SeenDrop seen[]; };
+layout(std430, binding = 5) writeonly buffer Kinds { uint kinds[]; };
 layout(binding = 2) uniform sampler2D pane_position;
 layout(binding = 3) uniform sampler2DArray pane_frame;
 layout(binding = 4) uniform sampler2D pane_metric;
@@ -119,10 +120,11 @@ void main() {
 
   float radius_px = radius_m / pixel_m;
   bool small = visible && radius_px < kSmall_px;
-  vec4 light_small = vec4(0.0);
+  vec4 light_weight = vec4(0.0);
   if (small) {
-    light_small = vec4(meanLight(cap, place, view, frame.clip_from_eye * eye_position), eye_outside ? 2.0 : 1.0);
+    vec3 light = meanLight(cap, place, view, frame.clip_from_eye * eye_position);
     weight *= sqrt(fadedDisc(3.14159 * radius_px * radius_px * stretch * max(abs(view.z), 0.2)));
+    light_weight = vec4(light, eye_outside ? -weight * weight : weight * weight);
     irregularity = 0.0;
     pad = 0.0;
   }
@@ -130,12 +132,25 @@ void main() {
   SeenDrop o;
   o.position_radius = vec4(place.position_m, radius_m);
   o.head_stretch = vec4(place.head, stretch);
-  o.light_small = light_small;
+  o.light_weight = light_weight;
   o.normal_reflections = vec4(place.normal, min(float(frame.internal_reflections), radius_px < kPlain_px ? 3.0 : 6.0));
   // A small drop's third number: how much wider than its ellipse the triangle is for the faded edge.
   o.cap_outline = vec4(cap.centre_z, cap.radius, small ? 1.0 + 0.5 * pixel / steep : irregularity, smoothstep(0.0, 0.1, length(drop.velocity_mps)) * step(1.05, stretch));
   o.reach = vec4(shadow_length > 1e-4 ? shadow / shadow_length : vec2(1.0, 0.0), reach(cap, slope) + pad, reach(cap, -slope) + pad);
   o.beside_phase = vec4((cap.centre_z > 0.0 ? cap.radius : 1.0) + 0.2 * irregularity + (small ? 0.0 : pixel), float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
-                        visible ? weight * weight : 0.0, radius_m < frame.fine_radius_px * pixel_m ? 2.0 : 1.0);
+                        weight * weight, radius_m < frame.fine_radius_px * pixel_m ? 2.0 : 1.0);
+  vec2 middle = vec2(0.0), along = vec2(1.0, 0.0), across = vec2(0.0, 1.0);
+  if (small) {
+    vec2 forth = vec2(o.reach.x * stretch, o.reach.y), beside = vec2(-o.reach.y * stretch, o.reach.x);
+    middle = 0.5 * (o.reach.z - o.reach.w) * forth;
+    along = 0.5 * (o.reach.z + o.reach.w) * forth;
+    across = o.beside_phase.x * beside;
+  }
+  mat4 clip_from_vehicle = frame.clip_from_eye * frame.eye_from_vehicle;
+  vec3 beside = cross(place.normal, place.head);
+  o.clip_middle = frame.clip_from_eye * eye_position + clip_from_vehicle * vec4(radius_m * (place.head * middle.x + beside * middle.y), 0.0);
+  o.clip_along = clip_from_vehicle * vec4(radius_m * (place.head * along.x + beside * along.y), 0.0);
+  o.clip_across = clip_from_vehicle * vec4(radius_m * (place.head * across.x + beside * across.y), 0.0);
   seen[k] = o;
+  kinds[k] = !visible || weight <= 0.0 ? kUnseenDrop : small ? kSmallDrop : kLargeDrop;
 }

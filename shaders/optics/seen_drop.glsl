@@ -1,4 +1,4 @@
-// A drop on its way from look_place.comp, which works it out once, to look_drop.vert, which draws it.
+// A drop on its way from look_place.comp, which works it out once, to those that draw it.
 #ifndef RG_OPTICS_SEEN_DROP_GLSL
 #define RG_OPTICS_SEEN_DROP_GLSL
 
@@ -8,7 +8,15 @@ struct SeenDrop {
   vec4 normal_reflections;  // unit, out of the glass; w: how many internal reflections to follow
   vec4 cap_outline;      // the cap's centre and radius in base radii; irregularity; taper
   vec4 reach;            // the rectangle to be drawn, where the base is a circle of radius 1: unit vector forth, how far ahead and behind
-  vec4 beside_phase;     // how far to both sides; phase of the outline; weight (0: not to be drawn); samples along a pixel
-  vec4 light_small;      // its mean light; w: > 0 for a drop so small that it is drawn with that alone, 2 for an eye outside
+  vec4 beside_phase;     // how far to both sides; phase of the outline; weight; samples along a pixel
+  vec4 light_weight;     // of a small drop: its mean light; weight, negative for an eye outside
+  // Clip space: the base's middle, and what a base radius along the head and across adds; of a small drop the ellipse's middle and half axes.
+  vec4 clip_middle;
+  vec4 clip_along;
+  vec4 clip_across;
 };
+
+// What is drawn of a drop. A small one shows no more than its mean light.
+const uint kUnseenDrop = 0u, kSmallDrop = 1u, kLargeDrop = 2u;
+
 #endif

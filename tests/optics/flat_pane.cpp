@@ -66,15 +66,16 @@ FlatPane::FlatPane(const GladGLContext& gl, double angle_from_horizontal_rad, do
   pane.frame = frame_.name();
 }
 
-void FlatPane::cutIntoTiles() {
-  const glass::TiledMesh tiled = glass::cutIntoTiles(mesh_, pane.film_size);
-  vertices_ = gl::Buffer(gl_, std::span<const float>(tiled.mesh.vertices));
-  indices_ = gl::Buffer(gl_, std::span<const uint32_t>(tiled.mesh.indices));
-  tiles_ = gl::Buffer(gl_, std::span<const uint32_t>(tiled.tiles));
+void FlatPane::cutIntoPieces() {
+  const glass::PieceMesh cut = glass::cutIntoPieces(mesh_, pane.film_size);
+  vertices_ = gl::Buffer(gl_, std::span<const float>(cut.mesh.vertices));
+  indices_ = gl::Buffer(gl_, std::span<const uint32_t>(cut.mesh.indices));
+  pieces_ = gl::Buffer(gl_, std::span<const uint32_t>(cut.first));
   pane.vertex_buffer = vertices_.name();
   pane.index_buffer = indices_.name();
-  pane.index_count = static_cast<int32_t>(tiled.mesh.indices.size());
-  pane.tile_buffer = tiles_.name();
+  pane.piece_buffer = pieces_.name();
+  pane.index_count = static_cast<int32_t>(cut.tiles);
+  pane.piece_index_count = static_cast<int32_t>(cut.mesh.indices.size());
 }
 
 GlassDropRecord FlatPane::cap(double u_m, double v_m, double base_radius_m, double contact_rad) const {

@@ -28,8 +28,8 @@ class FlatPane {
   void putFilm(const std::function<double(double u_m, double v_m)>& thickness_m);
   // In each texel so many beads whose bases cover this share of the glass.
   void putBeads(const std::function<int(double u_m, double v_m)>& number, double share, double contact_rad);
-  // Cuts its mesh into tiles, as the simulation's are.
-  void cutIntoTiles();
+  // Cuts its mesh into pieces, as the simulation's are.
+  void cutIntoPieces();
   // A spherical cap at (u, v) from the pane's middle, round.
   shared::GlassDropRecord cap(double u_m, double v_m, double base_radius_m, double contact_rad) const;
 
@@ -47,7 +47,7 @@ class FlatPane {
   double across_;  // +1: u runs to the right
   int texels_;
   glass::PaneMesh mesh_;
-  gl::Buffer vertices_, indices_, tiles_, drops_;
+  gl::Buffer vertices_, indices_, pieces_, drops_;
   gl::Texture2D position_, metric_, film_, beads_;
   gl::Texture2DArray frame_;
 };

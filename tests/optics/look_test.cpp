@@ -176,7 +176,7 @@ TEST_F(Look, aPaneCutIntoTilesShowsTheSame) {
     whole.push_back(draw(gl, look, scene, {&pane.pane, 1}));
     EXPECT_GT(greatestDifference(whole.back(), draw(gl, look, scene, {})), 0.5f);
   }
-  pane.cutIntoTiles();
+  pane.cutIntoPieces();
   for (size_t k = 0; k < views.size(); ++k) {
     scene.view = views[k];
     const Picture tiled = draw(gl, look, scene, {&pane.pane, 1});

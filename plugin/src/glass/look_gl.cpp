@@ -15,6 +15,7 @@
 #include "glass/look_order.h"
 #include "glass/look_picture_gl.h"
 #include "glass/look_programs_gl.h"
+#include "glass/look_water_gl.h"
 #include "glass/pane_gl.h"
 #include "glass/water.h"
 #include "shared/glass_tile.glsl"
@@ -23,11 +24,16 @@ namespace rg::glass {
 namespace {
 
 constexpr int kMeshStride = 8 * sizeof(float);
-constexpr size_t kSeenDropBytes = 112;   // shaders/optics/seen_drop.glsl
+constexpr size_t kSeenDropBytes = 160;  // shaders/optics/seen_drop.glsl
+constexpr uintptr_t kArraysCommandBytes = 16;
 constexpr int kPlaceGroup = 64;          // drops in a group of look_place.comp
 constexpr float kCoarseTexel_px = 6.0f;  // a film of larger texels would show facets
 constexpr float kFineRadius_px = 3.0f;
 constexpr float kSteepestRidge_rad = 1.4f;
+
+// Texels off which film is seen: its surface is a spline of the texel's neighbours, and is looked up between
+// two texels or, where they are large, among four.
+constexpr int kSmoothReach = 2, kCoarseReach = 3;
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -84,7 +90,8 @@ LookPane lookPaneOf(const PaneDrawn& d) {
   p.drop_count = d.drop_count;
   p.crater_buffer = d.crater_buffer;
   p.crater_count = d.crater_count;
-  p.tile_buffer = d.tile_buffer;
+  p.piece_buffer = d.piece_buffer;
+  p.piece_index_count = d.piece_index_count;
   p.ridge_buffer = d.ridge_buffer;
   p.ridge_contact_rad = static_cast<float>(d.advancing_rad);
   return p;
@@ -96,7 +103,6 @@ struct GlassLook::Parts {
         programs(gl),
         frame_block(gl, sizeof(FrameBlock)),
         mesh_layout(gl),
-        tiled_layout(gl),
         no_layout(gl),
         smooth(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
         stepped(gl, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_CLAMP_TO_EDGE),
@@ -104,19 +110,15 @@ struct GlassLook::Parts {
         exact(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
         no_environment(gl, GL_RGBA16F, 1),
         no_film(gl, GL_RGBA16F, 1, 1),
-        films(gl, false),
-        bead_maps(gl, false),
+        water(gl, programs),
         picture(gl),
         capture(gl),
         lamps(gl),
         fog(gl) {
     no_film.zero();
-    for (gl::VertexArray* layout : {&mesh_layout, &tiled_layout}) {
-      layout->attribute(0, 0, 3, GL_FLOAT, 0);
-      layout->attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
-      layout->attribute(2, 0, 2, GL_FLOAT, 6 * sizeof(float));
-    }
-    tiled_layout.integerAttribute(3, 1, 1, GL_UNSIGNED_INT, 0);
+    mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
+    mesh_layout.attribute(1, 0, 3, GL_FLOAT, 3 * sizeof(float));
+    mesh_layout.attribute(2, 0, 2, GL_FLOAT, 6 * sizeof(float));
   }
 
   void choose(LookVariant bit, bool on) {
@@ -126,15 +128,11 @@ struct GlassLook::Parts {
                  const LookSettings& settings);
   void bindLook(const LookLight& light, const LookTarget& target);
   void setState(const LookView& view, const LookTarget& target);
-  void composeFilm(const LookPane& pane);
-  void composeBeads(const LookPane& pane);
-  uint32_t compose(Canvases& canvases, const LookPane& pane, LookStage stage,
-                   const std::array<uint32_t, 3>& maps);
-  void sortTiles(const LookPane& pane);
-  void bindMesh(const LookPane& pane);
-  void drawFilm(const LookPane& pane);
+  void bindMesh(const LookPane& pane, uint32_t indices);
+  void drawWater(const LookPane& pane);
+  void drawPieces(const LookPane& pane);
   void placeDrops(const LookPane& pane);
-  void drawDrops(const LookPane& pane);
+  void drawDrops();
   void drawFog(const LookPane& pane);
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
@@ -143,15 +141,13 @@ struct GlassLook::Parts {
 
   const GladGLContext& gl;
   LookPrograms programs;
-  gl::Buffer frame_block, seen_drops, tile_kinds;
-  gl::VertexArray mesh_layout, tiled_layout, no_layout;
+  gl::Buffer frame_block, seen_drops, drop_kinds, picked_drops, drop_commands;
+  gl::VertexArray mesh_layout, no_layout;
   gl::Sampler smooth, stepped, mipped, exact;
-  gl::TextureCube no_environment;          // black
-  gl::Texture2D no_film;                   // a dry texel
-  Canvases films;                          // of look_film.frag
-  Canvases bead_maps;                      // of look_beads.frag
-  uint32_t variant = kPlain;               // of the pane being drawn and the light it is drawn in
-  uint32_t film_seen = 0, beads_seen = 0;  // for the pane being drawn
+  gl::TextureCube no_environment;  // black
+  gl::Texture2D no_film;           // a dry texel
+  LookWater water;
+  uint32_t variant = kPlain;  // of the pane being drawn and the light it is drawn in
   LookPicture picture;
   LookCapture capture;
   LookLamps lamps;
@@ -243,103 +239,67 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
   gl.BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // the target's alpha stays
 }
 
-void GlassLook::Parts::composeFilm(const LookPane& pane) {
-  film_seen = compose(films, pane, LookStage::film, {pane.film, pane.frame, pane.metric});
-  if (pane.crater_count == 0) return;
-  gl.Enablei(GL_BLEND, 0);
-  gl.BlendEquationi(0, GL_FUNC_ADD);
-  gl.BlendFunci(0, GL_ONE, GL_ONE);
-  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.crater_buffer);
-  programs.use(LookStage::craters);
-  gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.crater_count);
-}
-
-void GlassLook::Parts::composeBeads(const LookPane& pane) {
-  beads_seen = compose(bead_maps, pane, LookStage::beads, {pane.beads, pane.position, pane.metric});
-}
-
-// What a program makes of a pane's maps, texel by texel.
-uint32_t GlassLook::Parts::compose(Canvases& canvases, const LookPane& pane, LookStage stage,
-                                   const std::array<uint32_t, 3>& maps) {
-  Canvas& canvas = canvases.ofSize(pane.film_size.x, pane.film_size.y);
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer.name());
-  gl.ViewportIndexedf(0, 0.0f, 0.0f, static_cast<float>(pane.film_size.x),
-                      static_cast<float>(pane.film_size.y));
-  gl.Disable(GL_DEPTH_TEST);
+// Film, beads and ridges.
+void GlassLook::Parts::drawWater(const LookPane& pane) {
   gl.Disablei(GL_BLEND, 0);
-  gl.Disablei(GL_SCISSOR_TEST, 0);
-  gl.Disable(GL_CULL_FACE);
-  for (GLuint k = 0; k < 3; ++k) {
-    gl.BindTextureUnit(kFirst + k, maps[k]);
-    gl.BindSampler(kFirst + k, exact.name());
-  }
-  gl.BindVertexArray(no_layout.name());
-  programs.use(stage);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  return canvas.texture.name();
-}
-
-void GlassLook::Parts::drawFilm(const LookPane& pane) {
-  gl.Disablei(GL_BLEND, 0);
-  gl.BindTextureUnit(kFirst, pane.film != 0 ? film_seen : no_film.name());
-  gl.BindTextureUnit(kSecond, pane.beads != 0 ? beads_seen : no_film.name());
+  gl.BindTextureUnit(kFirst, water.film());
+  gl.BindTextureUnit(kSecond, water.beads());
   for (const GLuint unit : {kFirst, kSecond}) gl.BindSampler(unit, smooth.name());
   gl.BindSampler(kPicture, stepped.name());  // one mip level: a quarter of the pass cheaper
+  const uint32_t all = variant | kFilm | kBeads | (pane.blades.empty() ? kPlain : kRidges);
   if (!pane.blades.empty()) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, pane.ridge_buffer);
-  bindMesh(pane);
   // Front faces are the outer side; the eye sees one pane from inside and, at its far end, another from
   // outside.
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
-  const auto drawMesh = [&] { gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr); };
   if (pane.mirror > 0.0f) {
     // Its silver lets nothing through.
-  } else if (pane.tile_buffer != 0) {
-    programs.use(LookStage::pane, variant | kInside | kTiled | kBeadless).set(0, shared::kFilmTile);
-    drawMesh();
-    programs.use(LookStage::pane, variant | kInside | kTiled).set(0, shared::kBeadTile);
-    drawMesh();
-    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's kinds do not overtake these
+  } else if (pane.piece_buffer != 0) {
+    drawPieces(pane);
   } else {
-    programs.use(LookStage::pane, variant | kInside);
-    drawMesh();
+    bindMesh(pane, pane.index_buffer);
+    programs.use(LookStage::pane, all | kInside);
+    gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   }
   gl.CullFace(GL_BACK);
-  programs.use(LookStage::pane, variant & ~kCoarse);
-  drawMesh();
+  bindMesh(pane, pane.index_buffer);
+  programs.use(LookStage::pane, all & ~kCoarse);
+  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   gl.Disable(GL_CULL_FACE);
 }
 
-// Made ready to be drawn, and bound.
-void GlassLook::Parts::bindMesh(const LookPane& pane) {
-  gl::VertexArray& layout = pane.tile_buffer != 0 ? tiled_layout : mesh_layout;
-  layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
-  if (pane.tile_buffer != 0) layout.bindBuffer(1, pane.tile_buffer, 0, sizeof(uint32_t));
-  layout.bindIndices(pane.index_buffer);
-  gl.BindVertexArray(layout.name());
+// Those that show water, each kind by a program that does no more than it needs.
+void GlassLook::Parts::drawPieces(const LookPane& pane) {
+  bindMesh(pane, water.indices());
+  gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, water.commands());
+  const auto draw = [&](uint32_t kind, uint32_t water_variant) {
+    programs.use(LookStage::pane, variant | kInside | water_variant);
+    const auto at = static_cast<uintptr_t>(shared::listOf(kind)) * sizeof(GLuint) * 5;
+    gl.DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(at));
+  };
+  draw(shared::kFilm, kFilm);
+  draw(shared::kBeads, kBeads);
+  draw(shared::kFilm | shared::kBeads, kFilm | kBeads);
+  if (!pane.blades.empty()) draw(shared::kRidge, kFilm | kBeads | kRidges);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's lists do not overtake these
 }
 
-// What is to be seen on each tile.
-void GlassLook::Parts::sortTiles(const LookPane& pane) {
-  const glm::ivec2 tiles = (pane.film_size + shared::kTileSize - 1) / shared::kTileSize;
-  const size_t bytes = static_cast<size_t>(tiles.x * tiles.y) * sizeof(uint32_t);
-  if (tile_kinds.bytes() < bytes) tile_kinds = gl::Buffer(gl, bytes, 0);
-  const std::array<uint32_t, 3> maps{pane.film != 0 ? film_seen : no_film.name(),
-                                     pane.beads != 0 ? beads_seen : no_film.name(), pane.position};
-  for (GLuint k = 0; k < 3; ++k) {
-    gl.BindTextureUnit(kFirst + k, maps[k]);
-    gl.BindSampler(kFirst + k, exact.name());
-  }
-  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, tile_kinds.name());
-  if (!pane.blades.empty()) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, pane.ridge_buffer);
-  programs.use(LookStage::tiles);
-  gl.DispatchCompute(static_cast<GLuint>(tiles.x), static_cast<GLuint>(tiles.y), 1);
-  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+// Made ready to be drawn, and bound.
+void GlassLook::Parts::bindMesh(const LookPane& pane, uint32_t indices) {
+  mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
+  mesh_layout.bindIndices(indices);
+  gl.BindVertexArray(mesh_layout.name());
 }
 
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
-  const size_t bytes = static_cast<size_t>(pane.drop_count) * kSeenDropBytes;
-  if (seen_drops.bytes() < bytes) seen_drops = gl::Buffer(gl, bytes + bytes / 2, 0);
+  const auto count = static_cast<size_t>(pane.drop_count);
+  const auto reserve = [&](gl::Buffer& buffer, size_t bytes) {
+    if (buffer.bytes() < bytes) buffer = gl::Buffer(gl, bytes + bytes / 2, 0);
+  };
+  reserve(seen_drops, count * kSeenDropBytes);
+  reserve(drop_kinds, count * sizeof(uint32_t));
+  reserve(picked_drops, 2 * count * sizeof(uint32_t));
+  reserve(drop_commands, 2 * kArraysCommandBytes);
   gl.BindTextureUnit(kFirst, pane.position);
   gl.BindTextureUnit(kSecond, pane.frame);
   gl.BindTextureUnit(kThird, pane.metric);
@@ -347,20 +307,28 @@ void GlassLook::Parts::placeDrops(const LookPane& pane) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pane.drop_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pane.vertex_buffer);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen_drops.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, drop_kinds.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, picked_drops.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, drop_commands.name());
   gl.BindSampler(kPicture, mipped.name());
   programs.use(LookStage::place, variant);
   gl.DispatchCompute(static_cast<GLuint>(pane.drop_count + kPlaceGroup - 1) / kPlaceGroup, 1, 1);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  programs.use(LookStage::pick);
+  gl.DispatchCompute(1, 1, 1);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-void GlassLook::Parts::drawDrops(const LookPane& pane) {
+void GlassLook::Parts::drawDrops() {
   gl.Enablei(GL_BLEND, 0);
   gl.BindSampler(kPicture, mipped.name());
   gl.BindVertexArray(no_layout.name());
+  gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, drop_commands.name());
   programs.use(LookStage::small_drops);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3 * pane.drop_count);
+  gl.DrawArraysIndirect(GL_TRIANGLES, nullptr);
   programs.use(LookStage::drops, variant);
-  gl.DrawArrays(GL_TRIANGLES, 0, 6 * pane.drop_count);
+  gl.DrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(kArraysCommandBytes));
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's lists do not overtake these
 }
 
 // Between the eye and the water, of which it shows no more than of the rest: over the picture with both.
@@ -369,7 +337,7 @@ void GlassLook::Parts::drawFog(const LookPane& pane) {
   fog.bind(pane.fog, kFirst);
   programs.use(LookStage::fog, variant);
   gl.BindSampler(kFirst, smooth.name());
-  bindMesh(pane);
+  bindMesh(pane, pane.index_buffer);
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
@@ -378,17 +346,14 @@ void GlassLook::Parts::drawFog(const LookPane& pane) {
 
 void GlassLook::Parts::forget() {
   programs.forget();
-  frame_block.forget();
-  seen_drops.forget();
-  tile_kinds.forget();
+  for (gl::Buffer* buffer : {&frame_block, &seen_drops, &drop_kinds, &picked_drops, &drop_commands})
+    buffer->forget();
   mesh_layout.forget();
-  tiled_layout.forget();
   no_layout.forget();
   for (gl::Sampler* sampler : {&smooth, &stepped, &mipped, &exact}) sampler->forget();
   no_environment.forget();
   no_film.forget();
-  films.forget();
-  bead_maps.forget();
+  water.forget();
   picture.forget();
   capture.forget();
   lamps.forget();
@@ -416,16 +381,14 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     }
     drawn.push_back(seen);
     p.fillFrame(pane, view, target, light, settings);
-    if (pane.film != 0) p.composeFilm(pane);
-    if (pane.beads != 0) p.composeBeads(pane);
-    if (pane.tile_buffer != 0) p.sortTiles(pane);
+    p.water.prepare(pane, p.variant & kCoarse ? kCoarseReach : kSmoothReach);
     p.setState(view, target);
     p.bindLook(light, target);
     if (with_lamps) p.lamps.hide();
-    p.drawFilm(pane);
+    p.drawWater(pane);
     if (pane.drop_count > 0) {
       p.placeDrops(pane);
-      p.drawDrops(pane);
+      p.drawDrops();
     }
     if (!pane.fog.covered.empty()) {
       p.picture.fetch(view.viewport_px, target, with_lamps);

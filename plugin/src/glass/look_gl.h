@@ -83,9 +83,11 @@ struct LookPane {
   uint32_t vertex_buffer = 0;
   uint32_t index_buffer = 0;  // uint32_t triangles
   int32_t index_count = 0;
-  // uint32_t of each vertex: the tile of the grid that its triangle lies on, see mesh_cut.h; 0: not told, and
-  // all is drawn as if beads lay everywhere.
-  uint32_t tile_buffer = 0;
+  // Of a mesh cut into pieces, see mesh_cut.h: uint32_t: the first index of each, and their number;
+  // `index_count` counts those of the tiles. 0: not cut, and all is drawn as if film and beads lay
+  // everywhere.
+  uint32_t piece_buffer = 0;
+  int32_t piece_index_count = 0;  // of all pieces
   glm::vec3 centre_m{0.0f};  // of the pane's bounding sphere, vehicle frame: panes are drawn from far to near
   float radius_m = 0.0f;
   // The grid's maps, all of `film_size`: uv 0..1 spans the grid.

@@ -16,15 +16,18 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 9> kSources{
-    {{"glass/look_screen.vert", "glass/look_film.frag", kPlain},
-     {"glass/look_screen.vert", "glass/look_beads.frag", kPlain},
+constexpr std::array<Source, 12> kSources{
+    {{"glass/look_cells.comp", "", kRidges},
+     {"glass/look_kinds.comp", "", kPlain},
+     {"glass/look_sort.comp", "", kPlain},
+     {"glass/look_list.comp", "", kPlain},
+     {"glass/look_water.vert", "glass/look_water.frag", kEverywhere},
      {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
-     {"glass/look_tiles.comp", "", kPlain},
      {"glass/look_pane.vert", "glass/look_pane.frag",
-      kInside | kCoarse | kTiled | kBeadless | kMirror | kLit},
+      kInside | kCoarse | kFilm | kBeads | kRidges | kMirror | kLit},
      {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
      {"glass/look_place.comp", "", kMirror | kLamps | kLit},
+     {"glass/look_pick.comp", "", kPlain},
      {"glass/look_drop.vert", "glass/look_drop.frag", kMirror | kLamps | kLit},
      {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
 
@@ -32,14 +35,16 @@ struct Name {
   LookVariant variant;
   const char* define;
 };
-constexpr std::array<Name, 8> kNames{{{kInside, "INSIDE"},
-                                      {kCoarse, "COARSE"},
-                                      {kEnvironment, "ENVIRONMENT"},
-                                      {kLamps, "LAMPS"},
-                                      {kEncoded, "ENCODED"},
-                                      {kTiled, "TILED"},
-                                      {kBeadless, "BEADLESS"},
-                                      {kMirror, "MIRROR"}}};
+constexpr std::array<Name, 10> kNames{{{kInside, "INSIDE"},
+                                       {kCoarse, "COARSE"},
+                                       {kEnvironment, "ENVIRONMENT"},
+                                       {kLamps, "LAMPS"},
+                                       {kEncoded, "ENCODED"},
+                                       {kFilm, "FILM"},
+                                       {kBeads, "BEADS"},
+                                       {kMirror, "MIRROR"},
+                                       {kRidges, "RIDGES"},
+                                       {kEverywhere, "EVERYWHERE"}}};
 
 gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant) {
   std::vector<std::string> defines;

@@ -12,7 +12,20 @@ struct GladGLContext;
 
 namespace rg::glass {
 
-enum class LookStage : uint8_t { film, beads, craters, tiles, pane, fog, place, drops, small_drops };
+enum class LookStage : uint8_t {
+  cells,
+  kinds,
+  sort,
+  list,
+  water,
+  craters,
+  pane,
+  fog,
+  place,
+  pick,
+  drops,
+  small_drops
+};
 
 // Any of them together; those that a stage does not ask for make no difference to it.
 enum LookVariant : uint32_t {
@@ -22,9 +35,11 @@ enum LookVariant : uint32_t {
   kEnvironment = 4,  // there is a cube of what is all around
   kLamps = 8,        // lamps shine
   kEncoded = 16,     // the target holds sRGB
-  kTiled = 32,       // of the tiles of one kind alone
-  kBeadless = 64,    // on which no beads lie
+  kFilm = 32,        // there is film
+  kBeads = 64,       // there are beads
   kMirror = 128,     // a mirror, seen from its wet side
+  kRidges = 256,     // blades push ridges
+  kEverywhere = 512  // water may be anywhere: nobody has sorted the cells
 };
 
 class LookPrograms {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shared/glass_types.glsl"
+#include "shared/glass_tile.glsl"
 
 namespace rg::glass {
 namespace {
@@ -44,32 +44,60 @@ double along(const MeshVertex& v, size_t axis, glm::ivec2 texels) {
   return static_cast<double>(v[6 + axis]) * texels[static_cast<glm::length_t>(axis)];
 }
 
-struct Stretch {
-  int first, last;  // tiles
+// Squares of the grid, `size` texels along a side; pieces reach `beyond` over their edges.
+struct Squares {
+  glm::ivec2 texels;
+  int size;
+  double beyond;
 };
-Stretch tilesOf(const Polygon& polygon, size_t axis, glm::ivec2 texels) {
+
+struct Stretch {
+  int first, last;
+};
+Stretch squaresOf(const Polygon& polygon, size_t axis, const Squares& squares) {
   double low = 1e30, high = -1e30;
   for (const MeshVertex& v : polygon) {
-    low = std::min(low, along(v, axis, texels));
-    high = std::max(high, along(v, axis, texels));
+    low = std::min(low, along(v, axis, squares.texels));
+    high = std::max(high, along(v, axis, squares.texels));
   }
-  const int count = (texels[static_cast<glm::length_t>(axis)] + shared::kTileSize - 1) / shared::kTileSize;
-  const auto tile = [count](double at) {
-    return std::clamp(static_cast<int>(std::floor(at / shared::kTileSize)), 0, count - 1);
+  const int count = (squares.texels[static_cast<glm::length_t>(axis)] + squares.size - 1) / squares.size;
+  const auto square = [&](double at) {
+    return std::clamp(static_cast<int>(std::floor(at / squares.size)), 0, count - 1);
   };
-  return {tile(low), tile(high)};
+  return {square(low), square(high)};
 }
 
-// What of it lies on a column, or a row, of tiles: the first and the last go on for ever.
-Polygon onTiles(const Polygon& polygon, size_t axis, int tile, Stretch all, glm::ivec2 texels) {
-  const double low = tile * shared::kTileSize, high = low + shared::kTileSize;
+// What of it lies on a column, or a row, of squares: the first and the last go on for ever.
+Polygon onSquares(const Polygon& polygon, size_t axis, int square, Stretch all, const Squares& squares) {
+  const double low = square * squares.size - squares.beyond;
+  const double high = (square + 1) * squares.size + squares.beyond;
   Polygon part = polygon;
-  if (tile > all.first)
-    part = cutPolygon(part, [&](const MeshVertex& v) { return along(v, axis, texels) - low; });
-  if (tile < all.last)
-    part = cutPolygon(part, [&](const MeshVertex& v) { return high - along(v, axis, texels); });
+  if (square > all.first)
+    part = cutPolygon(part, [&](const MeshVertex& v) { return along(v, axis, squares.texels) - low; });
+  if (square < all.last)
+    part = cutPolygon(part, [&](const MeshVertex& v) { return high - along(v, axis, squares.texels); });
   return part;
 }
+
+// Calls `visit(square, polygon)` for each part of the mesh's triangles.
+template <class Visit>
+void forEachPart(const PaneMesh& mesh, const Squares& squares, const Visit& visit) {
+  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    const Polygon triangle = triangleOf(mesh, t);
+    const Stretch columns = squaresOf(triangle, 0, squares);
+    for (int x = columns.first; x <= columns.last; ++x) {
+      const Polygon column = onSquares(triangle, 0, x, columns, squares);
+      if (column.size() < 3) continue;
+      const Stretch rows = squaresOf(column, 1, squares);
+      for (int y = rows.first; y <= rows.last; ++y) {
+        const Polygon part = onSquares(column, 1, y, rows, squares);
+        if (part.size() >= 3) visit(glm::ivec2(x, y), part);
+      }
+    }
+  }
+}
+
+constexpr double kTileBeyond = 0.01;  // texels; more than the 1/256 of a pixel that places are rounded to
 
 }  // namespace
 
@@ -90,24 +118,27 @@ PaneMesh cutMesh(const PaneMesh& mesh, const std::function<Polygon(const Polygon
   return out;
 }
 
-TiledMesh cutIntoTiles(const PaneMesh& mesh, glm::ivec2 texels) {
-  TiledMesh out;
-  const int across = (texels.x + shared::kTileSize - 1) / shared::kTileSize;
-  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-    const Polygon triangle = triangleOf(mesh, t);
-    const Stretch columns = tilesOf(triangle, 0, texels);
-    for (int x = columns.first; x <= columns.last; ++x) {
-      const Polygon column = onTiles(triangle, 0, x, columns, texels);
-      if (column.size() < 3) continue;
-      const Stretch rows = tilesOf(column, 1, texels);
-      for (int y = rows.first; y <= rows.last; ++y) {
-        const Polygon piece = onTiles(column, 1, y, rows, texels);
-        if (piece.size() < 3) continue;
-        append(out.mesh, piece);
-        out.tiles.resize(out.mesh.vertices.size() / kFloats, static_cast<uint32_t>(y * across + x));
-      }
-    }
+PieceMesh cutIntoPieces(const PaneMesh& mesh, glm::ivec2 texels) {
+  const glm::ivec2 tiles = (texels + shared::kTileSize - 1) / shared::kTileSize;
+  const auto tile_count = static_cast<size_t>(tiles.x) * static_cast<size_t>(tiles.y);
+  const auto tileAt = [&](glm::ivec2 at) { return static_cast<size_t>(at.y * tiles.x + at.x); };
+  std::vector<std::vector<Polygon>> parts(tile_count * (1 + shared::kCellsOfTile));
+  forEachPart(mesh, {texels, shared::kTileSize, kTileBeyond},
+              [&](glm::ivec2 tile, const Polygon& part) { parts[tileAt(tile)].push_back(part); });
+  forEachPart(mesh, {texels, shared::kCellSize, 0.0}, [&](glm::ivec2 cell, const Polygon& part) {
+    const glm::ivec2 within = cell % shared::kCellsAlong;
+    const size_t tile = tileAt(cell / shared::kCellsAlong);
+    parts[tile_count + tile * shared::kCellsOfTile +
+          static_cast<size_t>(within.y * shared::kCellsAlong + within.x)]
+        .push_back(part);
+  });
+  PieceMesh out;
+  for (const std::vector<Polygon>& piece : parts) {
+    out.first.push_back(static_cast<uint32_t>(out.mesh.indices.size()));
+    for (const Polygon& part : piece) append(out.mesh, part);
   }
+  out.first.push_back(static_cast<uint32_t>(out.mesh.indices.size()));
+  out.tiles = out.first[tile_count];
   return out;
 }
 

@@ -22,12 +22,16 @@ std::vector<MeshVertex> cutPolygon(const std::vector<MeshVertex>& polygon,
 PaneMesh cutMesh(const PaneMesh& mesh,
                  const std::function<std::vector<MeshVertex>(const std::vector<MeshVertex>&)>& cut);
 
-// A mesh in pieces, none of which lies on two tiles of the grid.
-struct TiledMesh {
+// A mesh twice: what of it lies on each tile of the grid, then on each cell (shared/glass_tile.glsl); tiles
+// row by row, and the cells of the first, of the second and so on. Cells meet; a tile reaches a hair beyond
+// its edges, as its neighbour may have corners there that it has not, and no pixel is to be lost between
+// them.
+struct PieceMesh {
   PaneMesh mesh;
-  std::vector<uint32_t> tiles;  // of each vertex: its piece's, row by row
+  size_t tiles = 0;             // indices of all tiles, which are the whole mesh
+  std::vector<uint32_t> first;  // of each piece, its place among the indices; at last their number
 };
 // `mesh`: its uv from 0 to 1 over the grid.
-TiledMesh cutIntoTiles(const PaneMesh& mesh, glm::ivec2 texels);
+PieceMesh cutIntoPieces(const PaneMesh& mesh, glm::ivec2 texels);
 
 }  // namespace rg::glass

@@ -103,8 +103,8 @@ struct PaneGl::Parts {
   std::shared_ptr<PaneSim> sim;
   FilmGl film;
   Maps maps;
-  gl::Buffer vertices, indices, tiles, drops, craters;
-  size_t index_count = 0;
+  gl::Buffer vertices, indices, pieces, drops, craters;
+  size_t index_count = 0, piece_index_count = 0;
   std::optional<double> opening_m;  // none: not made yet
   std::shared_ptr<const PaneSnapshot> drawn;
 };
@@ -135,18 +135,19 @@ void PaneGl::Parts::open(double to_m) {
   if (opening_m == to_m) return;
   const Slide& slide = sim->slide();
   PaneMesh seen = slide.hides(to_m) ? cutAtSill(sim->mesh(), slide, to_m) : sim->mesh();
-  TiledMesh tiled;
+  PieceMesh cut;
   if (!seen.indices.empty()) {
     seen.vertices = gridVertices(seen, sim->map().grid());
-    tiled = cutIntoTiles(seen, sim->map().grid().size);
-    gl::Buffer made[] = {gl::Buffer(gl, std::span<const float>(tiled.mesh.vertices)),
-                         gl::Buffer(gl, std::span<const uint32_t>(tiled.mesh.indices)),
-                         gl::Buffer(gl, std::span<const uint32_t>(tiled.tiles))};
+    cut = cutIntoPieces(seen, sim->map().grid().size);
+    gl::Buffer made[] = {gl::Buffer(gl, std::span<const float>(cut.mesh.vertices)),
+                         gl::Buffer(gl, std::span<const uint32_t>(cut.mesh.indices)),
+                         gl::Buffer(gl, std::span<const uint32_t>(cut.first))};
     vertices = std::move(made[0]);
     indices = std::move(made[1]);
-    tiles = std::move(made[2]);
+    pieces = std::move(made[2]);
   }
-  index_count = tiled.mesh.indices.size();
+  index_count = cut.tiles;
+  piece_index_count = cut.mesh.indices.size();
   opening_m = to_m;
 }
 
@@ -190,8 +191,9 @@ PaneDrawn PaneGl::drawn() const {
   PaneDrawn out;
   out.vertex_buffer = parts_->vertices.name();
   out.index_buffer = parts_->indices.name();
-  out.tile_buffer = parts_->tiles.name();
+  out.piece_buffer = parts_->pieces.name();
   out.index_count = static_cast<int32_t>(parts_->index_count);
+  out.piece_index_count = static_cast<int32_t>(parts_->piece_index_count);
   out.slid_m = parts_->opening_m.value_or(0.0) * parts_->sim->slide().direction();
   out.centre_m = map.centre_m();
   out.radius_m = map.radius_m();
@@ -247,7 +249,7 @@ void PaneGl::abandon() {
   p.maps.frame.forget();
   p.vertices.forget();
   p.indices.forget();
-  p.tiles.forget();
+  p.pieces.forget();
   p.drops.forget();
   p.craters.forget();
 }

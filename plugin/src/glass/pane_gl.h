@@ -27,10 +27,11 @@ void abandonFilmPrograms(FilmPrograms& programs);
 struct PaneDrawn {
   uint32_t vertex_buffer =
       0;  // floats {x, y, z, nx, ny, nz, u, v}: uv in [0, 1] over the grid (its whole texture)
-  uint32_t index_buffer = 0;  // uint32_t triangles
-  int32_t index_count = 0;    // 0: all of it is behind its sill
-  uint32_t tile_buffer = 0;   // uint32_t of each vertex: its tile, see mesh_cut.h
-  glm::dvec3 slid_m{0.0};     // how far from where the mesh and the maps have it, vehicle frame
+  uint32_t index_buffer = 0;      // uint32_t triangles
+  int32_t index_count = 0;        // 0: all of it is behind its sill
+  uint32_t piece_buffer = 0;      // uint32_t: first index of each piece, see mesh_cut.h
+  int32_t piece_index_count = 0;  // of all pieces, of which the first make up the mesh
+  glm::dvec3 slid_m{0.0};         // how far from where the mesh and the maps have it, vehicle frame
   glm::vec3 centre_m{0.0f};
   float radius_m = 0.0f;
   uint32_t position =
