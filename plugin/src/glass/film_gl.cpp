@@ -186,9 +186,11 @@ void FilmGl::runBatch(std::span<FilmOrder> orders) {
       dry_ = false;
       watered_step_ = orders[i].step;
     }
+    ridged_ |= !orders[i].ridge_adds.empty() || !orders[i].sweeps.empty();
     const bool asleep = dry_ && orders[i].slid.empty();
     if (!asleep) runStep(orders[i], change_counts[i], *batch, starts[i], report_at);
-    batch->steps.push_back({orders[i].step, orders[i].takes.size(), orders[i].clear, asleep, report_at});
+    batch->steps.push_back(
+        {orders[i].step, orders[i].takes.size(), orders[i].clear, asleep, ridged_, report_at});
     report_at += ReportLayout(tiles_, orders[i].takes.size()).bytes;
   }
   gl_.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
@@ -295,6 +297,7 @@ void FilmGl::runStep(const FilmOrder& order, size_t changes, const Batch& batch,
     dispatch(programs_->leave, order.leaves.size());
   }
   flow(order, batch, upload_at + at.drive, report_at);
+  if (!ridged_) return;
   gl_.CopyNamedBufferSubData(ridges_.name(), batch.report.name(), 0,
                              static_cast<GLintptr>(report_at + report.ridges), kRidgeBytes);
 }
@@ -377,8 +380,8 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   report.taken_pl.resize(batch.steps[index].takes);
   if (!report.taken_pl.empty())
     std::memcpy(report.taken_pl.data(), from + at.taken, report.taken_pl.size() * sizeof(int));
-  std::vector<int32_t> ridges(kRidgePieces + 2);
-  std::memcpy(ridges.data(), from + at.ridges, kRidgeBytes);
+  std::vector<int32_t> ridges(kRidgePieces + 2, 0);
+  if (batch.steps[index].ridged) std::memcpy(ridges.data(), from + at.ridges, kRidgeBytes);
   for (size_t i = 0; i < kRidgePieces; ++i) report.ridge_pl += ridges[i];
   const std::array<uint32_t, 2> wiped{static_cast<uint32_t>(ridges[kRidgePieces]),
                                       static_cast<uint32_t>(ridges[kRidgePieces + 1])};
