@@ -1,8 +1,8 @@
 // A film step: every texel gathers what its neighbours give and gives what they gather, takes in beads that it flows over, and may offer water to
 // the drops. It reads the film in one buffer and writes it to another, so that all see it as it was; beads it changes where they are. The
 // law is in shared/glass_film.glsl.
-// Invocations walk over kColumns columns of a tile that is awake, kWalkRows rows from its lower or upper edge towards its middle, and keep what they
-// know of a texel for the next. Software GL, too, reads buffers as images fast, but as storage slowly, and runs through branches that nobody takes.
+// Invocations walk up kColumns columns of a tile that is awake, kWalkRows rows, and keep what they know of a texel for the next. Software GL, too, reads
+// buffers as images fast, but as storage slowly; it runs through branches that nobody takes, and once more through a loop whose way out is at its head.
 #include "glass/film_buffers.glsl"
 layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
@@ -22,32 +22,38 @@ const int kColumns = kWalkStrips * kStripSize;
 
 // What an invocation saw on its way: its part of the tile's report.
 struct Walk {
-  int offer_pl;          // its greatest to the drops
-  int offer_at;          // place in the tile, row by row, of the texel that makes it
+  int offer_pl; // its greatest to the drops
+  int offer_at; // place in the tile, row by row, of the first texel that makes it
   int film_low_pl, film_high, drained_pl, blown_pl, beads_pl; // as in FilmTile
-  int stirs;             // not to fall asleep
+  int stirs;    // not to fall asleep
 };
 // What the walks of a group tell each other: their parts of the fields of FilmTile, then whether they stir and what the offering texel has.
 const int kStirs = 8, kFilm = 9, kBeads = 10, kTold = 11;
 shared int told[kTold * kGroup];
 
-// Fields at a corner of tiles, and along a column of a tile: at its lower and its upper edge.
-struct Corner { vec4 metric, drive; };
-struct Column { Corner low, high; };
+// Fields at a place, at a tile's corners, and along a column of it: at its lower and its upper edge.
+struct Field { vec4 metric, drive; };
+struct Corners { Field low_left, low_right, high_left, high_right; };
+struct Column { Field low, high; };
 
-Corner cornerOf(int tile_x, int tile_y) {
-  int at = tile_y * (tilesAcross() + 1) + tile_x;
-  return Corner(imageLoad(metric, at), imageLoad(drive, at));
+Field atCorner(int at) { return Field(imageLoad(metric, at), imageLoad(drive, at)); }
+// Of the tile that a texel lies in: past the grid, too, where divisions would round the wrong way.
+Corners cornersOf(int x, int y) {
+  int low = (y >> 4) * (tilesAcross() + 1) + (x >> 4), high = low + tilesAcross() + 1;
+  return Corners(atCorner(low), atCorner(low + 1), atCorner(high), atCorner(high + 1));
 }
-Corner between(Corner a, Corner b, float f) { return Corner(between(a.metric, b.metric, f), between(a.drive, b.drive, f)); }
-Corner chosen(bool first, Corner a, Corner b) { return Corner(first ? a.metric : b.metric, first ? a.drive : b.drive); }
 
 // A texel's place between the edges of its tile.
 float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
 
-Corner fieldAt(Column column, int y) { return between(column.low, column.high, fraction(y)); }
+Field between(Field a, Field b, float f) { return Field(between(a.metric, b.metric, f), between(a.drive, b.drive, f)); }
+Column columnOf(Corners c, int x) {
+  float f = fraction(x);
+  return Column(between(c.low_left, c.low_right, f), between(c.high_left, c.high_right, f));
+}
+Field fieldAt(Column column, int y) { return between(column.low, column.high, fraction(y)); }
 
-FilmCell cellOf(Corner field, int volume_pl, FilmAround around, int level, FilmStepInfo step) {
+FilmCell cellOf(Field field, int volume_pl, FilmAround around, int level, FilmStepInfo step) {
   return filmCell(volume_pl, around, level, field.drive, field.metric, step);
 }
 
@@ -83,14 +89,36 @@ int levelAt(Glass under, int k) {
   return glassLevel(under.codes[s], k - s * kStripSize);
 }
 
-struct Strips { uint of[kColumns]; };
-Strips beadsIn(int strip) {
-  Strips row;
+// A row's beads.
+struct Beaded { uint of[kColumns]; };
+Beaded beadsIn(int strip) {
+  Beaded row;
   for (int s = 0; s < kWalkStrips; ++s) {
     uvec4 own = imageLoad(lying, strip + s);
     for (int k = 0; k < kStripSize; ++k) row.of[s * kStripSize + k] = own[k];
   }
   return row;
+}
+uvec4 stripOf(Beaded row, int k) { return uvec4(row.of[k], row.of[k + 1], row.of[k + 2], row.of[k + 3]); }
+
+// Beads that lie still are not stored again.
+void put(int strip, int film_pl[kColumns], Beaded before_it, Beaded now) {
+  for (int s = 0; s < kWalkStrips; ++s) {
+    int k = s * kStripSize;
+    after[strip + s] = ivec4(film_pl[k], film_pl[k + 1], film_pl[k + 2], film_pl[k + 3]);
+    if (stripOf(now, k) != stripOf(before_it, k)) beads[strip + s] = stripOf(now, k);
+  }
+}
+
+void see(FilmTexel now, int at, inout Walk seen) {
+  bool better = now.gone_pl > seen.offer_pl;
+  seen.offer_at = better ? at : seen.offer_at;
+  seen.offer_pl = better ? now.gone_pl : seen.offer_pl;
+  seen.stirs |= now.stirs;
+  int whole = max(now.film_pl, 0);
+  seen.film_low_pl += whole & 0xffff;
+  seen.film_high += whole >> 16;
+  seen.beads_pl += now.beads.volume_pl;
 }
 
 // Over an edge that looks up it is blown off, over others it drains.
@@ -104,19 +132,8 @@ Walk walk(ivec2 tile, int lane) {
   int column = lane % kWalksAcross * kColumns, first = lane / kWalksAcross * kWalkRows, across = tilesAcross() * kStrips;
   int x = tile.x * kTileSize + column, y = tile.y * kTileSize + first, strip = y * across + x / kStripSize, at = first * kTileSize + column;
 
-  // Corners of the tile, and of those on whose texels it borders.
-  bool at_left = column == 0, at_right = column + kColumns == kTileSize, at_bottom = first == 0, at_top = first + kWalkRows == kTileSize;
-  Corner low_left = cornerOf(tile.x, tile.y), low_right = cornerOf(tile.x + 1, tile.y);
-  Corner high_left = cornerOf(tile.x, tile.y + 1), high_right = cornerOf(tile.x + 1, tile.y + 1);
-  int beyond_left = tile.x - int(at_left), beyond_right = tile.x + 1 + int(at_right), below = tile.y - int(at_bottom), above = tile.y + 1 + int(at_top);
-  float f_left = fraction(x - 1), f_right = fraction(x + kColumns);
-  Column left_column = Column(between(cornerOf(beyond_left, tile.y), chosen(at_left, low_left, low_right), f_left),
-                              between(cornerOf(beyond_left, tile.y + 1), chosen(at_left, high_left, high_right), f_left));
-  Column right_column = Column(between(chosen(at_right, low_right, low_left), cornerOf(beyond_right, tile.y), f_right),
-                               between(chosen(at_right, high_right, high_left), cornerOf(beyond_right, tile.y + 1), f_right));
-  Corner below_left = cornerOf(tile.x, below), below_right = cornerOf(tile.x + 1, below);
-  Corner above_left = cornerOf(tile.x, above), above_right = cornerOf(tile.x + 1, above);
-
+  Corners own = cornersOf(x, y), below = cornersOf(x, y - 1), above = cornersOf(x, y + kWalkRows);
+  Column left_column = columnOf(cornersOf(x - 1, y), x - 1), right_column = columnOf(cornersOf(x + kColumns, y), x + kColumns);
   Column columns[kColumns];
   vec4 metric_here[kColumns];
   FilmCell me[kColumns];
@@ -126,12 +143,10 @@ Walk walk(ivec2 tile, int lane) {
   Row beneath = rowOf(strip - 2 * across), last = rowOf(strip - across), here = rowOf(strip), ahead = rowOf(strip + across);
   Glass glass_last = glassOf(strip - across), glass_here = glassOf(strip);
   for (int k = 0; k < kColumns; ++k) {
-    float f = fraction(x + k);
-    columns[k] = Column(between(low_left, low_right, f), between(high_left, high_right, f));
-    Corner beyond = between(below_left, below_right, f);
-    Column under = Column(beyond, chosen(at_bottom, columns[k].low, columns[k].high));
-    FilmCell behind = cellOf(fieldAt(under, y - 1), last.at[k + 2], aroundOf(last, k, beneath.at[k + 2], here.at[k + 2]), levelAt(glass_last, k), step);
-    Corner field = fieldAt(columns[k], y);
+    FilmCell behind = cellOf(fieldAt(columnOf(below, x + k), y - 1), last.at[k + 2], aroundOf(last, k, beneath.at[k + 2], here.at[k + 2]),
+                             levelAt(glass_last, k), step);
+    columns[k] = columnOf(own, x + k);
+    Field field = fieldAt(columns[k], y);
     metric_here[k] = field.metric;
     me[k] = cellOf(field, here.at[k + 2], aroundOf(here, k, last.at[k + 2], ahead.at[k + 2]), levelAt(glass_here, k), step);
     from_below[k] = flowBetween_pl(behind, behind.y_pl, behind.y_both_pl, me[k], me[k].y_pl, me[k].y_both_pl, step);
@@ -141,7 +156,7 @@ Walk walk(ivec2 tile, int lane) {
   // Over the pane's edges.
   int over_left = 0, over_right = 0, over_below = 0, over_above = 0;
   Walk seen = Walk(0, 0, 0, 0, 0, 0, 0, 0);
-  // Before its last row it changes to the columns that the row above has.
+  // Before the last row it changes to the columns of the row above.
   int part = 0;
   do {
     int rows = part == 0 ? kWalkRows - 1 : 1;
@@ -155,12 +170,12 @@ Walk walk(ivec2 tile, int lane) {
       FilmCell right = cellOf(fieldAt(right_column, y), here.at[r], by_right, levelAt(glass_here, kColumns), step);
       bool left_off = left.volume_pl < 0;
       int from_left = flowBetween_pl(left, left.x_pl, left.x_both_pl, me[0], me[0].x_pl, me[0].x_both_pl, step);
-      Strips lay = beadsIn(strip), lie = lay;
+      Beaded lay = beadsIn(strip), lie = lay;
       int after_pl[kColumns];
       for (int k = 0; k < kColumns; ++k) {
         FilmCell beside = k + 1 < kColumns ? me[(k + 1) % kColumns] : right;
         int to_right = flowBetween_pl(me[k], me[k].x_pl, me[k].x_both_pl, beside, beside.x_pl, beside.x_both_pl, step);
-        Corner field = fieldAt(columns[k], y + 1);
+        Field field = fieldAt(columns[k], y + 1);
         FilmCell next = cellOf(field, ahead.at[k + 2], aroundOf(ahead, k, here.at[k + 2], beyond.at[k + 2]), levelAt(glass_ahead, k), step);
         int to_next = flowBetween_pl(me[k], me[k].y_pl, me[k].y_both_pl, next, next.y_pl, next.y_both_pl, step);
 
@@ -173,15 +188,9 @@ Walk walk(ivec2 tile, int lane) {
         int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_below[k]) - to_next;
         FilmTexel now = settled(on ? volume : -1, beadsOf(lay.of[k]), metric_here[k], step);
         now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
-        bool better = now.gone_pl > seen.offer_pl;
-        seen.offer_at = better ? at + k : seen.offer_at;
-        seen.offer_pl = better ? now.gone_pl : seen.offer_pl;
+        see(now, at + k, seen);
         // Asleep next time only if neighbours, too, have seen it lie still.
-        seen.stirs |= now.stirs | int(me[k].h_m >= step.pin_m);
-        int whole = max(now.film_pl, 0);
-        seen.film_low_pl += whole & 0xffff;
-        seen.film_high += whole >> 16;
-        seen.beads_pl += now.beads.volume_pl;
+        seen.stirs |= int(me[k].h_m >= step.pin_m);
         after_pl[k] = now.film_pl;
         lie.of[k] = packedBeads(now.beads);
 
@@ -192,12 +201,7 @@ Walk walk(ivec2 tile, int lane) {
         me[k] = next;
         metric_here[k] = field.metric;
       }
-      for (int s = 0; s < kWalkStrips; ++s) {
-        int k = s * kStripSize;
-        after[strip + s] = ivec4(after_pl[k], after_pl[k + 1], after_pl[k + 2], after_pl[k + 3]);
-        uvec4 had = uvec4(lay.of[k], lay.of[k + 1], lay.of[k + 2], lay.of[k + 3]), has = uvec4(lie.of[k], lie.of[k + 1], lie.of[k + 2], lie.of[k + 3]);
-        if (has != had) beads[strip + s] = has;
-      }
+      put(strip, after_pl, lay, lie);
       last = here;
       here = ahead;
       ahead = beyond;
@@ -206,10 +210,7 @@ Walk walk(ivec2 tile, int lane) {
       strip += across;
       at += kTileSize;
     } while (--rows > 0);
-    for (int k = 0; k < kColumns; ++k) {
-      Corner beyond = between(above_left, above_right, fraction(x + k));
-      columns[k] = Column(chosen(at_top, columns[k].high, columns[k].low), beyond);
-    }
+    for (int k = 0; k < kColumns; ++k) columns[k] = columnOf(above, x + k);
   } while (++part < 2);
   leavePane(over_left, vec2(-1.0, 0.0), seen);
   leavePane(over_right, vec2(1.0, 0.0), seen);
@@ -228,8 +229,9 @@ int toldBy(int walk, int what) { return told[what * kGroup + walk]; }
 
 // A strip of the film and of the beads, and a texel of it.
 struct Offering { int strip, k; ivec4 film_pl; uvec4 beads; };
-Offering offeringOf(ivec2 tile, int at) {
-  Offering o;
+Offering offeringOf(ivec2 tile, int at, bool offers) {
+  Offering o = Offering(0, 0, ivec4(0), uvec4(0u));
+  if (!offers) return o;
   o.strip = (tile.y * kTileSize + at / kTileSize) * tilesAcross() * kStrips + tile.x * kStrips + at % kTileSize / kStripSize;
   o.k = at % kStripSize;
   o.film_pl = after[o.strip];
@@ -291,7 +293,7 @@ void main() {
   Offering offering;
   if (here) {
     Walk seen = walk(tile, lane);
-    offering = offeringOf(tile, seen.offer_at);
+    offering = offeringOf(tile, seen.offer_at, seen.offer_pl > 0);
     tell(seen, offering);
   }
   barrier();

@@ -39,7 +39,8 @@ RG_FN float cubeRoot(float x) {
   return root;
 }
 
-// Radius of the base of beads of the same volume each. `mm3_per_pl`: the cube of that of a picolitre, by the contact angle: V = R^3 capShape
+// Radius of the base of beads of the same volume each, in whole picolitres: a quotient of numbers below 2^24 is rounded up to no next one, and software GL
+// divides floats eight at a time. `mm3_per_pl`: the cube of that of a picolitre, by the contact angle: V = R^3 capShape
 // (glass/water.h).
 RG_FN float beadRadius_mm(RG_IN(Beads) beads, float mm3_per_pl) {
   return cubeRoot(floor(float(beads.volume_pl) / float(max(beads.number, 1))) * mm3_per_pl);

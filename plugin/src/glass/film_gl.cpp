@@ -150,8 +150,9 @@ bool FilmGl::wakes(const Step& step) {
     dry_ = false;
     watered_step_ = order.step;
   }
+  ridged_ |= !order.ridge_adds.empty() || !order.sweeps.empty();
   const bool asleep = dry_ && order.slid.empty();
-  begun_->steps.push_back({order.step, order.takes.size(), order.clear, asleep, step.report_at});
+  begun_->steps.push_back({order.step, order.takes.size(), order.clear, asleep, ridged_, step.report_at});
   return !asleep;
 }
 
@@ -255,8 +256,8 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   report.taken_pl.resize(batch.steps[index].takes);
   if (!report.taken_pl.empty())
     std::memcpy(report.taken_pl.data(), from + at.taken, report.taken_pl.size() * sizeof(int));
-  std::vector<int32_t> ridges(kRidgePieces + 2);
-  std::memcpy(ridges.data(), from + at.ridges, kRidgeBytes);
+  std::vector<int32_t> ridges(kRidgePieces + 2, 0);
+  if (batch.steps[index].ridged) std::memcpy(ridges.data(), from + at.ridges, kRidgeBytes);
   for (size_t i = 0; i < kRidgePieces; ++i) report.ridge_pl += ridges[i];
   const std::array<uint32_t, 2> wiped{static_cast<uint32_t>(ridges[kRidgePieces]),
                                       static_cast<uint32_t>(ridges[kRidgePieces + 1])};

@@ -56,6 +56,7 @@ class FilmGl {
       size_t takes;
       bool clear;
       bool asleep;       // nothing ran: the pane was dry
+      bool ridged;       // it tells of the ridges
       size_t report_at;  // in the batch's
     };
     std::vector<Step> steps;
@@ -121,6 +122,7 @@ class FilmGl {
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;
   std::array<uint32_t, 2> wiped_before_{};
+  bool ridged_ = false;        // a blade had something to do with it
   bool dry_ = true;            // no water on it or in a ridge, as of the last report after it was given some
   int64_t watered_step_ = -1;  // the last that gave it some
 };

@@ -149,8 +149,9 @@ bool FilmGl::flow(const Step& step) {
 // The step's end.
 void FilmGl::tellRidges(const Step& step) {
   const ReportLayout report(tiles_, step.order->takes.size());
-  gl_.CopyNamedBufferSubData(ridges_.name(), begun_->report.name(), 0,
-                             static_cast<GLintptr>(step.report_at + report.ridges), kRidgeBytes);
+  if (ridged_)
+    gl_.CopyNamedBufferSubData(ridges_.name(), begun_->report.name(), 0,
+                               static_cast<GLintptr>(step.report_at + report.ridges), kRidgeBytes);
   turn_ = 1 - turn_;
   picture_is_old_ = beads_picture_is_old_ = true;
 }
