@@ -26,6 +26,7 @@ Frame::Frame(const rg_create_info& info)
   stage_.rain_upload = timers_.add("rain_upload", true);
   stage_.glass_step = timers_.add("glass_step", true);
   stage_.captures = timers_.add("captures", true);
+  stage_.splashes = timers_.add("splashes", true);
   stage_.rain_beyond = timers_.add("rain_beyond", true);
   stage_.rain_draw = timers_.add("rain_draw", true);
   stage_.glass_draw = timers_.add("glass_draw", true);
@@ -219,6 +220,7 @@ void Frame::runTick(int64_t index, bool rain_only) {
     const gl::ScopedStage timed(timers_, stage_.rain_tick);
     field_.tick(tick);
     beyond_.tick(tick, wind_profile_);
+    splashes_.tick(tick, wind_profile_);
   }
   if (rain_only) return;
   const gl::ScopedStage timed(timers_, stage_.glass_tick);
@@ -230,6 +232,7 @@ void Frame::reset() {
   timeline_.clear();
   field_.reset();
   beyond_.reset();
+  splashes_.reset();
   washes_.clear();
   for (auto& [id, p] : panes_) {
     p.sim->reset();
@@ -241,6 +244,7 @@ void Frame::reset() {
   prewarm_ticks_ = 0;
   field_.publishAll(upload_);
   publishBeyond();
+  publishSplashes();
 }
 
 void Frame::seek(int64_t time_ns) {
@@ -271,6 +275,7 @@ void Frame::rebase(const glm::dvec3& shift_m) {
   timeline_.rebase(shift_m);
   field_.rebase(shift_m);
   beyond_.rebase(shift_m);
+  splashes_.rebase(shift_m);
   publish();
 }
 
@@ -282,12 +287,18 @@ void Frame::publish() {
   else
     field_.publish(upload_);
   publishBeyond();
+  publishSplashes();
 }
 
 void Frame::publishBeyond() {
   beyond_.describe(upload_.picture.classes[0].reach_per_diameter, beyond_picture_);
   beyond_picture_.volumes.clear();
   field_.volumesSeen(beyond_.cones(), rain::kBeyondRange_m, beyond_picture_.volumes);
+}
+
+void Frame::publishSplashes() {
+  splash_picture_ = splashes_.picture();
+  field_.volumesNear(splash_picture_.eyes_m, surroundings::kSplashShelter_m, splash_picture_.volumes);
 }
 
 // ---- questions ----

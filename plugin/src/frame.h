@@ -24,6 +24,7 @@
 #include "rain/field.h"
 #include "rain/rain_gl.h"
 #include "settings.h"
+#include "surroundings/splashes.h"
 #include "timeline.h"
 
 namespace rg {
@@ -147,6 +148,7 @@ class Frame {
   void finishGlass();  // runs what waits for the film, and waits for it; GL thread, locked
   void publish();
   void publishBeyond();
+  void publishSplashes();
   void requireMoment(int64_t time_ns) const;
 
   mutable std::mutex sim_;  // of all below; held by update throughout, by the GL thread for moments
@@ -155,6 +157,8 @@ class Frame {
   rain::Upload upload_;
   rain::Beyond beyond_;
   rain::BeyondPicture beyond_picture_;
+  surroundings::Splashes splashes_;
+  surroundings::SplashPicture splash_picture_;
   rain::RainPattern pattern_;  // empty: the project's own
   uint32_t pattern_version_ = 1;
   std::map<uint32_t, PaneObject> panes_;
@@ -177,8 +181,8 @@ class Frame {
 
   gl::Timers timers_;
   struct Stages {
-    gl::Timers::Stage rain_tick, glass_tick, rain_upload, glass_step, captures, rain_beyond, rain_draw,
-        glass_draw, finish;
+    gl::Timers::Stage rain_tick, glass_tick, rain_upload, glass_step, captures, splashes, rain_beyond,
+        rain_draw, glass_draw, finish;
   } stage_;
   std::unique_ptr<Gl> gl_;
 };

@@ -66,6 +66,7 @@ Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
   const gl::StateGuard guarded = guard(kDrawTouches | kStepTouches);
   rain = std::make_unique<rain::RainRenderer>(*context, capacity);
   beyond = std::make_unique<rain::BeyondRenderer>(*context);
+  splashes = std::make_unique<surroundings::SplashRenderer>(*context);
   film_programs = glass::makeFilmPrograms(context->gl);
   look = std::make_unique<glass::GlassLook>(context->gl);
   gl::throwOnError(context->gl, "attach_gl");
@@ -79,6 +80,7 @@ uint64_t Frame::Gl::filmHash(uint32_t pane) const {
 void Frame::Gl::forget() {
   rain->forget();
   beyond->forget();
+  splashes->forget();
   look->abandon();
   for (auto& [id, half] : panes) half.gl->abandon();
   glass::abandonFilmPrograms(*film_programs);
@@ -108,6 +110,7 @@ void Frame::detach() {
     gl.panes.clear();
     gl.rain.reset();
     gl.beyond.reset();
+    gl.splashes.reset();
     gl.look.reset();
     gl.film_programs.reset();
   }
@@ -156,6 +159,7 @@ void Frame::stepGpu() {
     const std::lock_guard lock(sim_);
     gl.rain->upload(upload_);
     gl.beyond->take(beyond_picture_);
+    gl.splashes->take(splash_picture_);
     if (gl.pattern_version != pattern_version_)
       gl.beyond->setPattern(pattern_.rgba.empty() ? rain::generatePattern() : pattern_);
     gl.pattern_version = pattern_version_;
@@ -207,6 +211,10 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
   draw.lighting = request.lighting;
   draw.lighting.lamps = request.lamps;
   draw.gain = static_cast<float>(now.rain_gain);
+  {
+    const gl::ScopedStage timed(timers_, stage_.splashes);
+    gl.splashes->draw(draw, {now.splashes_gain, now.splashes_reach_m});
+  }
   {
     const gl::ScopedStage timed(timers_, stage_.rain_beyond);
     const rain::BeyondLook look = beyondLook(now);

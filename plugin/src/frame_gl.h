@@ -7,6 +7,7 @@
 #include "frame.h"
 #include "gl/state_guard.h"
 #include "rain/beyond_gl.h"
+#include "surroundings/splashes_gl.h"
 
 namespace rg {
 
@@ -29,6 +30,7 @@ struct Frame::Gl {
   bool host_resets_state = false;
   std::unique_ptr<rain::RainRenderer> rain;
   std::unique_ptr<rain::BeyondRenderer> beyond;
+  std::unique_ptr<surroundings::SplashRenderer> splashes;
   uint32_t pattern_version = 0;
   std::shared_ptr<glass::FilmPrograms> film_programs;
   std::unique_ptr<glass::GlassLook> look;

@@ -15,6 +15,8 @@ struct Settings {
   double rain_middle_bias = 1.0, rain_middle_contrast = 0.5;
   double rain_far_bias = 1.0, rain_far_contrast = 0.5;
   double rain_haze_bias = 1.0;
+  double splashes_gain = 3.0;
+  double splashes_reach_m = 20.0;
   double glass_brightness = 1.0;
   double glass_blur = 1.0;
   double glass_internal_reflections = 3.0;
@@ -69,6 +71,11 @@ inline constexpr SettingInfo kSettings[] = {
      0.0, 1.0, &Settings::rain_far_contrast},
     {"rain.haze_bias", "1", "rain", "how dense rain looks beyond 100 m; 1 = as it is", 0.0, 4.0,
      &Settings::rain_haze_bias},
+    {"splashes.gain", "1", "splashes",
+     "how much stronger than in nature splashes cover what is behind them; 1 = physical, 0 = there are none",
+     0.0, 20.0, &Settings::splashes_gain},
+    {"splashes.reach_m", "m", "splashes", "how far from the eye splashes are drawn, the last third fading",
+     0.0, 40.0, &Settings::splashes_reach_m},
     {"glass.brightness", "1", "glass", "of what is seen through water", 0.0, 2.0,
      &Settings::glass_brightness},
     {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0,

@@ -11,7 +11,7 @@ RG_CONST int kRainIsSnow = 1;
 RG_CONST int kRainIsMeltingSnow = 2;
 RG_CONST int kRainIsHail = 3;
 RG_CONST int kRainIsBouncedHail = 4;
-RG_CONST uint kRainNearPlanes = 512u;  // 8 KiB: with the volumes it stays below the 16 KiB every driver gives a uniform block
+RG_CONST uint kRainNearPlanes = 512u;  // 8 KiB: with the volumes, 3 KiB, it stays below the 16 KiB every driver gives a uniform block
 RG_CONST uint kRainNearVolumes = 64u;
 RG_CONST float kRainEndUnits = 1024.0f;  // steps of RainDrop.end in a tick: 8 us, 0.3 mm of path at 40 m/s
 
@@ -53,13 +53,14 @@ RG_SIZE(RainClass, 48)
 
 // A convex volume near the eye: planes [first, first + count) of RainShelter.planes.
 struct RainVolume {
-  vec4 sphere;  // centre from the eye, radius
+  vec4 sphere;    // centre from the eye, radius
+  vec4 velocity;  // xyz: of its body, m/s
   uint first;
   uint count;
   uint spare0;
   uint spare1;
 };
-RG_SIZE(RainVolume, 32)
+RG_SIZE(RainVolume, 48)
 
 struct RainShelter {
   vec4 planes[kRainNearPlanes];  // inside where dot(xyz, p from the eye) <= w

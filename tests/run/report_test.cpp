@@ -31,8 +31,8 @@ TEST(Report, holdsWhatItPromises) {
   EXPECT_EQ(json["simulated_s"], 1.0);
   EXPECT_GT(json["wall_s"], 0.0);
   EXPECT_EQ(json["gl_errors"], 0);
-  for (const char* stage :
-       {"rain_tick", "glass_tick", "rain_upload", "glass_step", "rain_beyond", "rain_draw", "glass_draw"}) {
+  for (const char* stage : {"rain_tick", "glass_tick", "rain_upload", "glass_step", "splashes", "rain_beyond",
+                            "rain_draw", "glass_draw"}) {
     ASSERT_TRUE(json["stages"].contains(stage)) << stage;
     EXPECT_LE(json["stages"][stage]["cpu_ms"]["p50"], json["stages"][stage]["cpu_ms"]["p99"]) << stage;
   }

@@ -14,7 +14,7 @@
  *     api->step_gpu          GL thread    uploads what is new, runs the film's ticks
  *     api->prepare_captures  GL thread    (optional) your callback draws the scene behind the glass, wide
  *     for each view:
- *       api->draw_world      GL thread    falling rain into your colour + depth: drops, and the veil of rain beyond
+ *       api->draw_world      GL thread    rain into your colour + depth: splashes, drops, and the veil of rain beyond
  *       api->draw_glass      GL thread    the panes, with the world behind them
  *       api->draw_finish     GL thread    whole-picture effects
  *   api->detach_gl                                           GL thread, context current
@@ -170,8 +170,8 @@ typedef struct rg_weather {
   /* Since minor 1. */
   double hail_mm_h; /* as water, 0 .. 300; default 0. Stones of 5 .. 30 mm bounce once, off the ground and off
                        volumes, and leave nothing on panes */
-  double ground_height_m; /* of the ground round the views, world z, within +-1e8: where stones bounce;
-                             default -1e8, none */
+  double ground_height_m; /* of the ground round the views, world z, within +-1e8: where stones bounce, and
+                             where splashes are looked for first; default -1e8, none */
 } rg_weather;
 
 /* One eye's picture. The same struct tells update which volumes will be looked into and draw what to draw. */
@@ -573,7 +573,8 @@ typedef struct rg_api {
                       size_t stride);
   rg_result (*step_gpu)(rg_instance* instance);                                      /* [thread: GL] */
   rg_result (*prepare_captures)(rg_instance* instance, const rg_capture_info* info); /* [thread: GL] */
-  /* Falling drops, and behind them the veil of the rain that is too far off to be drops: as much as there is
+  /* Splashes on what you have drawn, where it looks up and rain reaches it (parameters splashes.*; found by
+   * the depth_texture, or without one at rg_weather.ground_height_m). Falling drops, and behind them the veil of the rain that is too far off to be drops: as much as there is
    * in the open air (outside all volumes) between the eye and what the depth buffer holds, or the clouds. So
    * draw your own haze with the air's visibility alone. Without a depth_texture (and color_texture) the veil
    * is drawn layer by layer, each tested as a whole at its middle. [thread: GL] */

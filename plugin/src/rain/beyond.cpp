@@ -29,12 +29,10 @@ double stretchOf(const dvec3& passing_mps, const ViewState& view) {
 vec4 wide(const dvec3& v) { return vec4(glm::vec3(v), 0.0f); }
 
 void setUpRays(const Cone& cone, const ViewState& view, shared::RainBeyond& out) {
-  const dvec3 forward = glm::transpose(glm::dmat3(view.eyeFromWorld)) * dvec3(0, 0, -1);
-  const auto atDepth1 = [&](size_t i) { return cone.corners[i] / glm::dot(cone.corners[i], forward); };
-  const dvec3 right = 0.5 * (atDepth1(1) - atDepth1(0)), up = 0.5 * (atDepth1(3) - atDepth1(0));
-  out.ray_middle = wide(atDepth1(0) + right + up);
-  out.ray_right = wide(right);
-  out.ray_up = wide(up);
+  const Rays rays = raysOf(cone, view);
+  out.ray_middle = wide(rays.middle);
+  out.ray_right = wide(rays.right);
+  out.ray_up = wide(rays.up);
 }
 
 void setUpAxis(const dvec3& passing_mps, shared::RainBeyond& out) {

@@ -169,6 +169,10 @@ bool Field::openToSky(const glm::dvec3& place_m, const glm::dvec3& velocity_mps,
 void Field::volumesSeen(std::span<const Cone> views, double radius_m, std::vector<NearVolume>& out) const {
   state_->shelter.seen(views, radius_m, out);
 }
+void Field::volumesNear(std::span<const glm::dvec3> eyes_m, double radius_m,
+                        std::vector<NearVolume>& out) const {
+  state_->shelter.near(eyes_m, radius_m, out);
+}
 void Field::removeVehicle(uint32_t vehicle) { state_->shelter.removeVehicle(vehicle); }
 
 void Field::setVisibility(const Visibility& visibility) {

@@ -100,6 +100,9 @@ class Field {
   // As Shelter::seen, as things stand at the last tick.
   void volumesSeen(std::span<const Cone> views, double radius_m, std::vector<NearVolume>& out) const;
 
+  // As Shelter::near, likewise.
+  void volumesNear(std::span<const glm::dvec3> eyes_m, double radius_m, std::vector<NearVolume>& out) const;
+
   FieldStats stats() const;
   uint64_t hash() const;  // over the live drops; independent of the order they came in
 

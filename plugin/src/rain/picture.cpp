@@ -46,7 +46,11 @@ double setUpShelter(std::span<const NearVolume> volumes, const dvec3& eye, doubl
       continue;
     }
     shared::RainVolume& volume = shelter.volumes[shelter.volume_count++];
-    volume = {vec4(vec3(posed.centre - eye), static_cast<float>(posed.volume->radius_m)), planes, count, 0,
+    volume = {vec4(vec3(posed.centre - eye), static_cast<float>(posed.volume->radius_m)),
+              vec4(vec3(posed.pose.velocity_mps), 0.0f),
+              planes,
+              count,
+              0,
               0};
     for (const Plane& plane : posed.volume->planes) {
       const dvec3 normal = posed.pose.orientation * plane.normal;

@@ -140,6 +140,13 @@ Cone coneOf(const ViewState& view) {
   return cone;
 }
 
+Rays raysOf(const Cone& cone, const ViewState& view) {
+  const dvec3 forward = glm::transpose(glm::dmat3(view.eyeFromWorld)) * dvec3(0, 0, -1);
+  const auto atDepth1 = [&](size_t i) { return cone.corners[i] / glm::dot(cone.corners[i], forward); };
+  const dvec3 right = 0.5 * (atDepth1(1) - atDepth1(0)), up = 0.5 * (atDepth1(3) - atDepth1(0));
+  return {atDepth1(0) + right + up, right, up};
+}
+
 Region::Region(const Cone& cone, const Margin& margin)
     : inward(cone.inward), reach_m(margin.reach_m), middle_m(margin.middle_m) {
   for (size_t i = 0; i < 4; ++i)

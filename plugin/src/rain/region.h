@@ -18,6 +18,11 @@ struct Cone {
   bool valid = false;                 // false: the matrices are no perspective view
 };
 Cone coneOf(const ViewState& view);
+// The view ray through clip (x, y) is middle + x right + y up, world axes, as long as makes its depth 1.
+struct Rays {
+  glm::dvec3 middle{0.0}, right{0.0}, up{0.0};
+};
+Rays raysOf(const Cone& cone, const ViewState& view);
 // How long a view's streaks are exposed: 0 .. 0.25 s; what is no number counts as 0.
 double exposureOf(const ViewState& view);
 glm::dvec3 eyeVelocityOf(const ViewState& view);  // 0 when it is no number

@@ -1,0 +1,265 @@
+#include "surroundings/splashes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rain/class_frames.h"
+#include "rain/motion.h"
+#include "rain/size_law.h"
+
+namespace rg::surroundings {
+namespace {
+
+using glm::dvec2, glm::dvec3, glm::vec4;
+using shared::kSplashEpoch_s, shared::kSplashEpochs, shared::kSplashLevels, shared::kSplashSizes;
+
+constexpr int64_t kEpoch_ns = 62'500'000;
+constexpr double kEpoch_s = static_cast<double>(kSplashEpoch_s);
+static_assert(static_cast<double>(kEpoch_ns) == kEpoch_s * 1e9);
+constexpr double kLongest_s = (kSplashEpochs - 1) * kEpoch_s;  // no splash lasts longer
+constexpr double kCell_m = 0.8;  // of the finest level, twice that of the next: some hundred splashes each
+
+// Where the host tells no ground it is looked for as far below the eye as a driver's is above it.
+constexpr double kEyeOverGround_m = 1.3;
+// About the ground: how deep it may fall and how high surfaces that are looked down on may stand (a car's
+// roof), by eye; and where it was only guessed.
+constexpr dvec2 kSearch_m{-1.2, 1.8}, kWideSearch_m{-3.0, 1.0};
+// A vehicle's own surfaces: a bonnet lies so high over the ground, and within this of the driver's eye.
+constexpr double kBonnet_m = 0.9, kVehicle_m = 4.0;
+constexpr dvec2 kBonnetSearch_m{-0.4, 0.4};
+constexpr double kFarthestCell = 1e9;  // where cells can still be told apart
+// As far beyond their reach lines are still looked for that slant into it, which keeps storms cheap.
+constexpr double kMostAside_m = 5.0;
+
+vec4 wide(const dvec3& v) { return vec4(glm::vec3(v), 0.0f); }
+
+double diameterBelow(const rain::SizeLaw& law, double flux) {
+  double low = static_cast<double>(shared::kSplashFrom_mm), high = rain::kLargest_mm;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = 0.5 * (low + high);
+    (law.flux(static_cast<double>(shared::kSplashFrom_mm), middle) < flux ? low : high) = middle;
+  }
+  return low;
+}
+
+// The diameters below which k / kSplashSizes of the drops lie. Between two of them sizes are taken as evenly
+// spread; the last stands where that makes the mean of the largest right.
+void findSizes(const rain::SizeLaw& law, double flux, std::array<float, kSplashSizes + 1>& out) {
+  for (uint32_t k = 0; k < kSplashSizes; ++k)
+    out[k] = static_cast<float>(diameterBelow(law, flux * k / kSplashSizes));
+  constexpr int kSteps = 100;
+  const auto from_mm = static_cast<double>(out[kSplashSizes - 1]);
+  const double step_mm = (rain::kLargest_mm - from_mm) / kSteps;
+  double sum = 0.0, number = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double at_mm = from_mm + i * step_mm, share = law.flux(at_mm, at_mm + step_mm);
+    sum += share * (at_mm + 0.5 * step_mm);
+    number += share;
+  }
+  out[kSplashSizes] = static_cast<float>(number > 0.0 ? 2.0 * sum / number - from_mm : from_mm);
+}
+
+// A lattice as a view meets it.
+struct Lattice {
+  uint32_t number = 0, name = 0;
+  dvec3 origin_m{0.0};  // at the picture's time
+  dvec3 velocity_mps{0.0}, drift_mps{0.0};
+  double reference_m = 0.0;  // world z
+  dvec2 search_m{0.0};
+  double reach_m = 0.0;
+};
+
+// Cells of all levels whose lines may meet something in view.
+class Cells {
+ public:
+  Cells(const SplashPicture& picture, const rain::Cone& cone, int64_t time_ns, SplashSetup& out)
+      : picture_(picture), cone_(cone), time_ns_(time_ns), out_(out) {}
+
+  void add(const Lattice& lattice) {
+    for (uint32_t level = 0; level < kSplashLevels; ++level) addLevel(lattice, level);
+  }
+
+ private:
+  // Of the slowest drops, which slant most: metres aside for each up.
+  static dvec2 slantOf(const Lattice& lattice) {
+    return dvec2(lattice.drift_mps) / -rain::fallSpeed(static_cast<double>(shared::kSplashFrom_mm));
+  }
+
+  // What of the lines of a cell lies between the heights searched, as a box.
+  bool isInView(const Lattice& lattice, const dvec3& corner_m, double cell_m) const {
+    const dvec2 slant = slantOf(lattice);
+    dvec2 low(corner_m), high = low + cell_m;
+    for (const double height_m : {lattice.search_m.x, lattice.search_m.y}) {
+      low = glm::min(low, dvec2(corner_m) + slant * height_m);
+      high = glm::max(high, dvec2(corner_m) + cell_m + slant * height_m);
+    }
+    const dvec3 from(low, corner_m.z + lattice.search_m.x), to(high, corner_m.z + lattice.search_m.y);
+    const dvec3 middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    return std::ranges::all_of(cone_.inward, [&](const dvec3& n) {
+      return glm::dot(n, middle) + glm::dot(glm::abs(n), half) > 0.0;
+    });
+  }
+
+  void addLevel(const Lattice& lattice, uint32_t level) {
+    const double cell_m = kCell_m * std::exp2(level);
+    // Lines that stand beyond come in at other heights.
+    const double aside_m = glm::length(slantOf(lattice)) * std::max(-lattice.search_m.x, lattice.search_m.y);
+    const double reach_m = std::min(lattice.reach_m, static_cast<double>(shared::splashReach_m(level))) +
+                           std::min(aside_m, kMostAside_m);
+    const glm::vec2 ranks = shared::splashRanks(level);
+    const SplashesInCells numbers(picture_.flux_per_m2s * static_cast<double>(ranks.y - ranks.x) * cell_m *
+                                  cell_m * kEpoch_s);
+    const dvec2 eye = dvec2(cone_.eye_m - lattice.origin_m) / cell_m, reach = dvec2(reach_m / cell_m);
+    const dvec2 first = glm::floor(eye - reach), last = glm::floor(eye + reach);
+    if (!glm::all(glm::lessThan(glm::abs(eye), dvec2(kFarthestCell)))) return;
+    for (double y = first.y; y <= last.y; ++y) {
+      for (double x = first.x; x <= last.x; ++x) {
+        const dvec2 nearest = glm::clamp(eye, dvec2(x, y), dvec2(x + 1.0, y + 1.0));
+        const dvec3 corner_m(dvec2(x, y) * cell_m + dvec2(lattice.origin_m - cone_.eye_m),
+                             lattice.reference_m - cone_.eye_m.z);
+        if (glm::distance(nearest, eye) > reach.x || !isInView(lattice, corner_m, cell_m)) continue;
+        addEpochs(lattice, level, numbers, dvec2(x, y), vec4(glm::vec3(corner_m), cell_m));
+      }
+    }
+  }
+
+  void addEpochs(const Lattice& lattice, uint32_t level, const SplashesInCells& numbers, const dvec2& cell,
+                 const vec4& corner) {
+    const int64_t epoch = time_ns_ / kEpoch_ns - (time_ns_ % kEpoch_ns < 0 ? 1 : 0);
+    shared::SplashJob job;
+    job.corner = corner;
+    job.x = static_cast<uint32_t>(static_cast<int64_t>(cell.x));
+    job.y = static_cast<uint32_t>(static_cast<int64_t>(cell.y));
+    job.level = level | lattice.number << 2u | lattice.name << 3u;
+    for (uint32_t back = 0; back < kSplashEpochs; ++back) {
+      const int64_t begun = epoch - back;
+      job.epoch = static_cast<uint32_t>(begun);
+      job.since_s = static_cast<float>(static_cast<double>(time_ns_ - begun * kEpoch_ns) * 1e-9);
+      job.number = numbers.of(job.x, job.y, job.epoch, job.level);
+      job.first = out_.count;
+      // The earliest are over, the last are still to come.
+      const auto numberBy = [&](double after_s) {
+        return static_cast<uint32_t>(std::clamp(after_s / kEpoch_s, 0.0, 1.0) * job.number);
+      };
+      const auto since_s = static_cast<double>(job.since_s);
+      job.from = numberBy(since_s - kLongest_s);
+      const uint32_t until = std::min(job.number, numberBy(since_s) + 1);
+      if (job.from >= until) continue;
+      out_.jobs.push_back(job);
+      out_.count += until - job.from;
+    }
+  }
+
+  const SplashPicture& picture_;
+  const rain::Cone& cone_;
+  int64_t time_ns_;
+  SplashSetup& out_;
+};
+
+void tell(const Lattice& lattice, double ground_m, shared::SplashRain& rain) {
+  rain.moves[lattice.number] = wide(lattice.velocity_mps);
+  rain.drift[lattice.number] = wide(lattice.drift_mps);
+  rain.search[lattice.number] = vec4(lattice.search_m, ground_m - lattice.reference_m, 0.0f);
+}
+
+}  // namespace
+
+void Splashes::tick(const Tick& tick, const rain::WindProfile& profile) {
+  const double rate_mm_h = tick.weather.rain_mm_h, from_mm = static_cast<double>(shared::kSplashFrom_mm);
+  SplashPicture& p = picture_;
+  p.time_ns = tick.time_ns;
+  const rain::SizeLaw law = rain::SizeLaw::of(rate_mm_h);
+  if (rate_mm_h != sized_for_mm_h_) {
+    sized_for_mm_h_ = rate_mm_h;
+    p.flux_per_m2s = law.flux(from_mm, rain::kLargest_mm);
+    findSizes(law, p.flux_per_m2s, p.sizes_mm);
+  }
+  const double fall_mps = rain::fallSpeed(static_cast<double>(p.sizes_mm[kSplashSizes / 2]));
+  p.drift_mps = profile.dropShare(fall_mps) * rain::usableWind(tick);
+  p.vehicles.clear();
+  p.eyes_m.clear();
+  for (const ViewState& view : tick.views) {
+    p.eyes_m.push_back(rain::coneOf(view).eye_m);
+    const auto vehicle = std::ranges::find(tick.vehicles, view.vehicle, &VehicleState::id);
+    if (view.vehicle != 0 && vehicle != tick.vehicles.end())
+      p.vehicles.push_back({vehicle->id, vehicle->pose});
+  }
+  p.ground_known = std::isfinite(tick.weather.ground_height_m) && tick.weather.ground_height_m > kNoGround_m;
+  if (p.ground_known)
+    p.ground_m = tick.weather.ground_height_m;
+  else if (!p.eyes_m.empty())
+    p.ground_m = p.eyes_m.front().z - kEyeOverGround_m;
+}
+
+void Splashes::reset() { *this = Splashes(); }
+
+void Splashes::rebase(const dvec3& shift_m) {
+  picture_.origin_m -= shift_m;
+  picture_.ground_m -= shift_m.z;
+  for (auto& vehicle : picture_.vehicles) vehicle.pose.position_m -= shift_m;
+  for (dvec3& eye : picture_.eyes_m) eye -= shift_m;
+}
+
+SplashesInCells::SplashesInCells(double mean) {
+  constexpr double kRarest = 1e-8;  // half of what the hash can tell
+  double share = std::exp(-mean);
+  sums_.push_back(share);
+  while (sums_.back() < 1.0 - kRarest) {
+    share *= mean / static_cast<double>(sums_.size());
+    sums_.push_back(sums_.back() + share);
+  }
+}
+
+uint32_t SplashesInCells::of(uint32_t x, uint32_t y, uint32_t epoch, uint32_t level) const {
+  const double u = static_cast<double>(shared::openUnitFloat(shared::pcg4d({x, y, epoch, ~level}).x));
+  return static_cast<uint32_t>(std::ranges::lower_bound(sums_, u) - sums_.begin());
+}
+
+bool setUpSplashes(const SplashPicture& picture, const ViewState& view, int64_t time_ns,
+                   const SplashLook& look, SplashSetup& out) {
+  const rain::Cone cone = rain::coneOf(view);
+  out.jobs.clear();
+  out.count = 0;
+  if (!(picture.flux_per_m2s > 0.0) || !(look.gain > 0.0) || !(look.reach_m > 0.0) || !cone.valid)
+    return false;
+  const double after_s = static_cast<double>(time_ns - picture.time_ns) * 1e-9;
+  const double known_m = rain::setUpShelter(picture.volumes, cone.eye_m, after_s, out.shelter);
+  const rain::Rays rays = rain::raysOf(cone, view);
+  out.rain.ray_middle = wide(rays.middle);
+  out.rain.ray_right = wide(rays.right);
+  out.rain.ray_up = wide(rays.up);
+  // Where a volume may stand that found no room, nothing is drawn.
+  const double reach_m = std::min({look.reach_m, kMostSplashReach_m, known_m});
+  for (uint32_t k = 0; k <= kSplashSizes; ++k)
+    out.rain.sizes_mm[k / 4][static_cast<int>(k % 4)] = picture.sizes_mm[k];
+
+  Cells cells(picture, cone, time_ns, out);
+  Lattice world;
+  world.origin_m = picture.origin_m;
+  world.drift_mps = picture.drift_mps;
+  world.reference_m = picture.ground_m;
+  world.search_m = picture.ground_known ? kSearch_m : kWideSearch_m;
+  world.reach_m = reach_m;
+  tell(world, picture.ground_m, out.rain);
+  cells.add(world);
+  out.rain.reach = vec4(reach_m, look.gain, 0.0, 0.0);
+
+  const auto vehicle = std::ranges::find(picture.vehicles, view.vehicle, &SplashPicture::Vehicle::id);
+  if (vehicle != picture.vehicles.end()) {
+    Lattice on_it;
+    on_it.number = 1;
+    on_it.name = vehicle->id;
+    on_it.origin_m = vehicle->pose.position_m + vehicle->pose.velocity_mps * after_s;
+    on_it.velocity_mps = vehicle->pose.velocity_mps;
+    on_it.drift_mps = picture.drift_mps - on_it.velocity_mps;
+    on_it.reference_m = picture.ground_m + kBonnet_m;
+    on_it.search_m = kBonnetSearch_m;
+    on_it.reach_m = std::min(reach_m, kVehicle_m);
+    tell(on_it, picture.ground_m, out.rain);
+    cells.add(on_it);
+    out.rain.reach.z = static_cast<float>(kVehicle_m);
+  }
+  return out.count > 0;
+}
+
+}  // namespace rg::surroundings

@@ -1,0 +1,261 @@
+// Finds where each splash's line meets what the host has drawn, and hands those to be seen to the draw calls: a workgroup's crowns stand side by
+// side in its own part of `drawn`, the droplets of near ones after them, in the order of their numbers, so that the same splashes always give the
+// same picture; a draw command for each workgroup.
+// Defines: READ_DEPTH where the host's depth can be read. Else splashes stand at the reference height, and the depth buffer hides them.
+#include "shared/rain_drop.glsl"
+layout(std140, binding = 1) uniform ShelterBlock { RainShelter rain_shelter; };
+#include "rain/light.glsl"
+#include "shared/rain_drawn.glsl"
+#define SPLASH_RAIN_BINDING 0
+#include "shared/splash.glsl"
+
+layout(local_size_x = kSplashLanes) in;
+layout(std430, binding = 0) readonly buffer Jobs { SplashJob jobs[]; };
+layout(std430, binding = 1) writeonly buffer Drawn { SplashCorner drawn[]; };
+layout(std430, binding = 2) writeonly buffer Commands { RainCommand commands[]; };
+layout(location = 0) uniform uint job_count;
+layout(location = 1) uniform uint splash_count;
+
+const float kNowhere = -1e9;
+const float kLeastPart_px = 0.25;  // droplets of a lesser radius in the picture are not drawn
+const float kLift_m = 0.05;        // so much nearer to the eye a splash is held against a depth buffer, as it stands on what is there
+const float kLeastFall_m = 0.3;    // of the ground below the eye, for what a pixel's depth is worth
+
+shared uint maybe[kSplashGroup], job_of[kSplashGroup], maybe_bits[kSplashGroup / 32u], maybe_before[kSplashGroup / 32u + 1u];
+shared uint crown_bits[kSplashLanes / 32u], crowns_before[kSplashLanes / 32u + 1u];
+shared uint droplet_bits[kSplashLanes / 32u], droplets_before[kSplashLanes / 32u + 1u];
+
+// From the viewport's middle.
+vec2 onScreen(vec3 p) {
+  vec4 clip = look.clipFromWorldAtEye * vec4(p, 1.0);
+  return clip.xy / clip.w * 0.5 * look.viewport.zw;
+}
+
+// What depth changes on level ground there, for a step of 1 px, and for one of 1 m up the line.
+vec2 depthSteps(vec3 p) {
+  float depth = dot(p, look.forward.xyz), fall_m = max(-p.z, kLeastFall_m);
+  return vec2(depth * depth / look.focal.y, depth) / fall_m;
+}
+
+#ifdef READ_DEPTH
+layout(binding = 0) uniform sampler2D scene_depth;
+
+const int kHeights = 8, kHalvings = 5;
+const float kLeastUp = 0.5;           // of a surface's normal: steeper ones water runs down (unsourced)
+const float kOnGround_m = 0.25;       // what stands higher near the eye is its vehicle's, and moves with it
+
+float sceneAt(vec2 px) {
+  vec2 size_px = look.viewport.zw;
+  float stored = texelFetch(scene_depth, ivec2(look.viewport.xy + clamp(px + 0.5 * size_px, vec2(0.5), size_px - 0.5)), 0).r;
+  return rainSceneDepth(stored, look.depth_rows, look.zero_to_one);
+}
+
+// How far behind a place the scene is; kNowhere, as if it hid the place, beside the picture.
+float clearance(vec3 p) {
+  float depth = dot(p, look.forward.xyz);
+  vec2 px = onScreen(p);
+  if (depth < kRainNearest_m || any(greaterThanEqual(abs(px), 0.5 * look.viewport.zw))) return kNowhere;
+  return sceneAt(px) - depth;
+}
+
+// The height over the reference at which the line meets the scene; of several the lowest. kNowhere: none that is seen.
+float meets(Splash s, uint lattice) {
+  vec3 p = splashOnLine(s, 0.0);
+  float before, now = clearance(p);
+  if (abs(now) <= 0.6 * depthSteps(p).x + 0.01) return 0.0;
+  float top = splash_rain.search[lattice].y, step_m = (top - splash_rain.search[lattice].x) / float(kHeights);
+  float upper = kNowhere, above = 0.0, below = 0.0;
+  before = clearance(splashOnLine(s, top));
+  for (int i = 1; i <= kHeights; ++i) {
+    float height = top - float(i) * step_m;
+    now = clearance(splashOnLine(s, height));
+    if (before >= 0.0 && now < 0.0) {
+      upper = height + step_m;
+      above = before;
+      below = now;
+    }
+    before = now;
+  }
+  if (upper == kNowhere) return kNowhere;
+  float lower = upper - step_m;
+  for (int i = 0; i < kHalvings; ++i) {
+    float middle = 0.5 * (lower + upper);
+    now = clearance(splashOnLine(s, middle));
+    if (now >= 0.0) {
+      upper = middle;
+      above = now;
+    } else {
+      lower = middle;
+      below = now;
+    }
+  }
+  // Where the line only goes behind something, the scene's depth jumps.
+  float height = 0.5 * (lower + upper);
+  vec2 steps = depthSteps(splashOnLine(s, height));
+  return above - below <= 0.05 + 2.0 * (steps.x + (upper - lower) * steps.y) ? height : kNowhere;
+}
+
+vec3 sceneFrom(vec2 px) {
+  vec2 clip = px / (0.5 * look.viewport.zw);
+  return (splash_rain.ray_middle.xyz + clip.x * splash_rain.ray_right.xyz + clip.y * splash_rain.ray_up.xyz) * sceneAt(px);
+}
+
+// Whether the surface that is seen at a place looks up, told by the pixels round it: of each two the one that is nearer to it, as the other may
+// lie beyond an edge.
+bool looksUp(vec3 p) {
+  vec2 px = floor(onScreen(p)) + 0.5;
+  vec3 at = sceneFrom(px);
+  vec3 left = sceneFrom(px - vec2(1.0, 0.0)) - at, right = sceneFrom(px + vec2(1.0, 0.0)) - at;
+  vec3 low = sceneFrom(px - vec2(0.0, 1.0)) - at, high = sceneFrom(px + vec2(0.0, 1.0)) - at;
+  vec3 x = dot(left, left) < dot(right, right) ? -left : right, y = dot(low, low) < dot(high, high) ? -low : high;
+  vec3 normal = cross(x, y);
+  return abs(normal.z) >= kLeastUp * length(normal);
+}
+
+// Where on its line a splash stands. False where it stands nowhere.
+bool stands(Splash s, uint lattice, out vec3 foot) {
+  float height = meets(s, lattice);
+  foot = splashOnLine(s, max(height, -1e3));
+  if (height == kNowhere || foot.z > 0.0 || !looksUp(foot)) return false;
+  bool is_vehicles = height - splash_rain.search[lattice].z > kOnGround_m && length(foot) < splash_rain.reach.z;
+  return is_vehicles == (lattice > 0u);
+}
+#else
+bool stands(Splash s, uint lattice, out vec3 foot) {
+  foot = splashOnLine(s, 0.0);
+  return lattice == 0u;
+}
+#endif
+
+// The job that a splash belongs to: the last whose first is not after it.
+uint jobOf(uint number) {
+  uint low = 0u, high = job_count;
+  while (high - low > 1u) {
+    uint middle = (low + high) / 2u;
+    if (jobs[middle].first <= number) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+// Whether a splash is at work, and its line may be in the picture near enough to count: most are not.
+bool mayBeSeen(SplashJob job, uint number) {
+  Splash s = splashOf(job, job.from + number - job.first);
+  vec2 heights = splash_rain.search[job.level >> 2u & 1u].xy;
+  vec3 low = splashOnLine(s, heights.x), high = splashOnLine(s, heights.y);
+  vec4 a = look.clipFromWorldAtEye * vec4(low, 1.0), b = look.clipFromWorldAtEye * vec4(high, 1.0);
+  bvec2 left = lessThan(max(a.xy + a.w, b.xy + b.w), vec2(0.0)), right = lessThan(max(a.w - a.xy, b.w - b.xy), vec2(0.0));
+  // A line is nowhere nearer than where it passes the eye, and farther ranks count less.
+  return splashIsAlive(s) && !any(left) && !any(right) && splashTimes(s.rank, min(length(low.xy), length(high.xy))) > 0.0;
+}
+
+struct Seen {
+  vec3 foot;
+  float depth;
+  float times;  // it counts
+};
+
+bool seenOf(SplashJob job, uint number, out Splash s, out Seen seen) {
+  uint lattice = job.level >> 2u & 1u;
+  s = splashOf(job, job.from + number - job.first);
+  if (!stands(s, lattice, seen.foot)) return false;
+  seen.depth = dot(seen.foot, look.forward.xyz);
+  float distance_m = length(seen.foot), reach_m = splash_rain.reach.x;
+  seen.times = splashTimes(s.rank, distance_m) * (1.0 - smoothstep(0.7 * reach_m, reach_m, distance_m)) * splash_rain.reach.y;
+  vec2 px = onScreen(seen.foot);
+  if (seen.depth < kRainNearest_m || !(seen.times > 0.0) || any(greaterThan(abs(px), 0.5 * look.viewport.zw))) return false;
+  float skin_m = 0.01 + seen.depth / look.focal.y;
+  return !splashIsSheltered(seen.foot, s.velocity_mps, splash_rain.moves[lattice].xyz, s.age_s, skin_m);
+}
+
+void put(uint part, vec3 foot, SplashCrown crown, vec3 light, float times, float phase) {
+  float depth = dot(foot, look.forward.xyz), sine = abs(foot.z) / length(foot), px_per_m = look.focal.y / depth;
+  vec2 foot_px = onScreen(foot), up_px = onScreen(foot + vec3(0.0, 0.0, 0.01 * depth)) - foot_px;
+  vec2 up = length(up_px) > 1e-3 ? normalize(up_px) : vec2(0.0, 1.0), across = vec2(up.y, -up.x);
+  float radius = crown.radius_m * px_per_m, height = crown.height_m * px_per_m * sqrt(1.0 - sine * sine), rim = crown.rim_m * px_per_m;
+  float pixel = 2.0 * rainPixelHalf(up), wide = radius + pixel, low = radius * sine + rim + pixel, high = height + low;
+  vec2 clip = 2.0 / look.viewport.zw;
+  float before = max(depth - kLift_m - 2.0 * depthSteps(foot).x, 0.5 * depth);
+  vec4 of_all[3];
+  of_all[0] = vec4(foot_px + look.viewport.xy + 0.5 * look.viewport.zw, up);
+  of_all[1] = vec4(radius, height, rim, sine);
+  of_all[2] = vec4(uintBitsToFloat(packHalf2x16(light.rg)), uintBitsToFloat(packHalf2x16(vec2(light.b, times))), before, phase);
+  for (uint i = 0u; i < 4u; ++i) {
+    vec2 px = foot_px + across * ((i & 1u) == 0u ? -wide : wide) + up * (i < 2u ? -low : high);
+    drawn[4u * part + i].place = vec4(px * clip, rainStoredDepth(before, look.depth_rows), 1.0);
+  }
+  drawn[4u * part].a = of_all[0];
+  drawn[4u * part].b = of_all[1];
+  drawn[4u * part].c = of_all[2];
+}
+
+// How many of the bits stand before one. `before`: how many do in the words before each.
+#define RANK(bits, before, number) (before[(number) / 32u] + uint(bitCount(bits[(number) / 32u] & ((1u << ((number) % 32u)) - 1u))))
+
+// Fills in `before`, which has a word more than `bits`, by one lane a word. Each read of what lanes share costs software GL much.
+#define COUNT_BEFORE(bits, before, words)                                            \
+  if (lane <= words) {                                                               \
+    uint sum = 0u;                                                                   \
+    for (uint word = 0u; word < lane; ++word) sum += uint(bitCount(bits[word]));     \
+    before[lane] = sum;                                                              \
+  }
+
+// Those of the group's splashes that may be seen, in order. Returns how many.
+uint gather(uint lane, uint begin) {
+  uint end = min(begin + kSplashGroup, splash_count);
+  for (uint i = lane; i < kSplashGroup / 32u; i += kSplashLanes) maybe_bits[i] = 0u;
+  barrier();
+  uint job = jobOf(begin);
+  for (uint number = begin + lane; number < end; number += kSplashLanes) {
+    while (job + 1u < job_count && jobs[job + 1u].first <= number) ++job;
+    uint i = number - begin;
+    if (!mayBeSeen(jobs[job], number)) continue;
+    atomicOr(maybe_bits[i / 32u], 1u << (i % 32u));
+    job_of[i] = job;
+  }
+  barrier();
+  COUNT_BEFORE(maybe_bits, maybe_before, kSplashGroup / 32u)
+  barrier();
+  for (uint i = lane; i < kSplashGroup; i += kSplashLanes) {
+    if ((maybe_bits[i / 32u] >> (i % 32u) & 1u) != 0u) maybe[RANK(maybe_bits, maybe_before, i)] = i;
+  }
+  barrier();
+  return maybe_before[kSplashGroup / 32u];
+}
+
+void main() {
+  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, first = group * kSplashParts;
+  uint begin = group * kSplashGroup, count = gather(lane, begin), parts = 0u;
+  for (uint from = 0u; from < count; from += kSplashLanes) {
+    if (lane < kSplashLanes / 32u) crown_bits[lane] = droplet_bits[lane] = 0u;
+    barrier();
+    Splash s;
+    Seen seen;
+    bool is_seen = false;
+    // A loop that runs once at most: software GL leaves those that none enters, but goes through what a branch leaves out.
+    for (uint i = from + lane; i < count; i = count) is_seen = seenOf(jobs[job_of[maybe[i]]], begin + maybe[i], s, seen);
+    bool is_near = is_seen && 0.1 * s.diameter_m * look.focal.y > kLeastPart_px * seen.depth;
+    uint bit = 1u << (lane % 32u);
+    if (is_seen) atomicOr(crown_bits[lane / 32u], bit);
+    if (is_near) atomicOr(droplet_bits[lane / 32u], bit);
+    barrier();
+    COUNT_BEFORE(crown_bits, crowns_before, kSplashLanes / 32u)
+    COUNT_BEFORE(droplet_bits, droplets_before, kSplashLanes / 32u)
+    barrier();
+    uint crowns = crowns_before[kSplashLanes / 32u], nears = droplets_before[kSplashLanes / 32u];
+    for (bool shows = is_seen; shows; shows = false) {
+      vec3 light = asInTarget(gathered(seen.foot));
+      float phase = float(s.seed & 1023u) * (6.2831853 / 1024.0);
+      uint part = parts + RANK(crown_bits, crowns_before, lane);
+      if (part < kSplashParts) put(first + part, seen.foot, splashCrown(s.diameter_m, s.age_s / s.life_s), light, seen.times, phase);
+      for (uint i = 0u; is_near && i < kSplashDroplets; ++i) {
+        part = parts + crowns + RANK(droplet_bits, droplets_before, lane) * kSplashDroplets + i;
+        vec4 droplet = splashDroplet(s, i);
+        if (part < kSplashParts) put(first + part, seen.foot + droplet.xyz, SplashCrown(droplet.w, 0.0, 0.5 * droplet.w), light, seen.times, 0.0);
+      }
+    }
+    parts = min(parts + crowns + nears * kSplashDroplets, kSplashParts);
+    barrier();
+  }
+  if (lane == 0u) commands[group] = RainCommand(6u * parts, 1u, 0u, 4u * first, 0u);
+}

@@ -1,0 +1,246 @@
+// Splashes as a process in place and time: how many, of what sizes, where not, and the same whoever looks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "rain/size_law.h"
+#include "scene.h"
+
+namespace rg::surroundings::test {
+namespace {
+
+constexpr int64_t kEpoch_ns = 62'500'000;
+
+// Counted over cells and epochs that do not overlap; to four standard deviations of Poisson's law.
+TEST(Splashes, areAsManyAndAsLargeAsTheLawsDropsOver1mm) {
+  for (const double rate_mm_h : {1.0, 10.0, 50.0, 300.0}) {
+    const rain::SizeLaw law = rain::SizeLaw::of(rate_mm_h);
+    Scene scene = sceneOnGround(rate_mm_h);
+    look(scene.views[0], {0, 0, 30.0}, 0.0, -1.5);
+    const SplashPicture picture = pictureOf(scene);
+    double number = 0.0, diameters_mm = 0.0, area_m2 = 0.0;
+    SplashSetup setup;
+    constexpr int kPictures = 12;  // each tells of all that began in so many epochs before it:
+    constexpr int kEpochs = 2;
+    const double told_s = kEpochs * static_cast<double>(shared::kSplashEpoch_s);
+    EXPECT_LE(static_cast<double>(shared::splashLife_s(1e-3f * static_cast<float>(rain::kLargest_mm))),
+              told_s);
+    std::set<std::tuple<uint32_t, uint32_t, uint32_t>> cells;
+    for (int k = 0; k < kPictures; ++k) {
+      ASSERT_TRUE(setUpSplashes(picture, scene.views[0], k * kEpochs * kEpoch_ns, {.reach_m = 6.0}, setup));
+      each(setup, [&](const shared::SplashJob& job, uint32_t, const shared::Splash& s) {
+        const auto age_s = static_cast<double>(s.age_s);
+        if (age_s < 0.0 || age_s >= told_s) return;
+        ++number;
+        diameters_mm += 1e3 * static_cast<double>(s.diameter_m);
+        if (!cells.insert({job.level, job.x, job.y}).second) return;
+        const glm::vec2 ranks = shared::splashRanks(job.level & 3u);
+        area_m2 += static_cast<double>(job.corner.w * job.corner.w * (ranks.y - ranks.x));
+      });
+    }
+    const double expected = area_m2 * law.flux(1.0, 6.0) * kPictures * told_s;
+    EXPECT_NEAR(number, expected, 4.0 * std::sqrt(expected)) << rate_mm_h;
+    double mean_mm = 0.0;
+    for (double d = 1.0; d < 6.0; d += 0.01) mean_mm += (d + 0.005) * law.flux(d, d + 0.01);
+    mean_mm /= law.flux(1.0, 6.0);
+    // Sizes lie 0.8 mm about their mean at most; their distribution is told in 32 steps.
+    EXPECT_NEAR(diameters_mm / number, mean_mm, 4.0 * 0.8 / std::sqrt(number) + 0.01) << rate_mm_h;
+  }
+}
+
+// Two pictures of the same moments know the same splashes, a step older, whatever lies between; and another
+// view knows those that it sees too.
+TEST(Splashes, areThoseOfTheirPlaceAndTime) {
+  using Name = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t>;
+  const auto alive = [](const Scene& scene, int64_t time_ns) {
+    std::map<Name, std::pair<dvec3, shared::Splash>> all;
+    SplashSetup setup;
+    setUpSplashes(pictureOf(scene), scene.views[0], time_ns, {}, setup);
+    const dvec3 eye = rain::coneOf(scene.views[0]).eye_m;
+    each(setup, [&](const shared::SplashJob& job, uint32_t i, const shared::Splash& s) {
+      if (shared::splashIsAlive(s))
+        all[{job.level, job.x, job.y, job.epoch, i}] = {eye + dvec3(s.place_m), s};
+    });
+    return all;
+  };
+  Scene scene = sceneOnGround(20.0);
+  const int64_t time_ns = 7'123'456'789;
+  const auto first = alive(scene, time_ns);
+  EXPECT_GT(first.size(), 1000u);
+  for (const int64_t step_ns : {4'000'000, 33'000'000}) {
+    const double step_s = static_cast<double>(step_ns) * 1e-9;
+    const auto later = alive(scene, time_ns + step_ns);
+    for (const auto& [name, before] : first) {
+      const auto found = later.find(name);
+      if (found == later.end()) {
+        EXPECT_GE(static_cast<double>(before.second.age_s) + step_s,
+                  static_cast<double>(before.second.life_s) - 1e-6);
+        continue;
+      }
+      EXPECT_LT(glm::distance(found->second.first, before.first), 1e-5);
+      EXPECT_NEAR(static_cast<double>(found->second.second.age_s - before.second.age_s), step_s, 1e-6);
+    }
+  }
+  Scene other = sceneOnGround(20.0, {3.0, 1.0, 2.0});
+  look(other.views[0], {3.0, 1.0, 2.0}, 0.3);
+  size_t common = 0;
+  for (const auto& [name, there] : alive(other, time_ns)) {
+    const auto found = first.find(name);
+    if (found == first.end()) continue;
+    ++common;
+    EXPECT_LT(glm::distance(found->second.first, there.first), 1e-5);
+  }
+  EXPECT_GT(common, first.size() / 4);
+}
+
+// The host's world is moved under it: the same splashes at the places that are the same.
+TEST(Splashes, stayWhereTheyAreWhenTheOriginMoves) {
+  const dvec3 shift_m(1234.5, -777.25, 3.0);
+  Scene scene = sceneOnGround(20.0), moved = scene;
+  look(moved.views[0], dvec3(0, 0, 1.5) - shift_m, 0.0);
+  moved.weather.ground_height_m = -shift_m.z;
+  Splashes splashes;
+  splashes.tick(scene.tick(), rain::WindProfile{});
+  SplashSetup before, after;
+  ASSERT_TRUE(setUpSplashes(splashes.picture(), scene.views[0], 0, {}, before));
+  splashes.rebase(shift_m);
+  splashes.tick(moved.tick(), rain::WindProfile{});
+  ASSERT_TRUE(setUpSplashes(splashes.picture(), moved.views[0], 0, {}, after));
+  ASSERT_EQ(before.count, after.count);
+  for (size_t i = 0; i < before.jobs.size(); ++i)
+    ASSERT_LT(glm::distance(before.jobs[i].corner, after.jobs[i].corner), 1e-4f);
+}
+
+// Fewer are drawn far off, and each for more: at every distance all together count as often as there are.
+TEST(Splashes, countAsOftenAsThereAreAtAllDistances) {
+  for (const float distance_m : {0.5f, 3.0f, 4.2f, 5.0f, 9.0f, 20.0f, 40.0f}) {
+    constexpr int kRanks = 20000;
+    double sum = 0.0;
+    for (int i = 0; i < kRanks; ++i) {
+      const float rank = (static_cast<float>(i) + 0.5f) / kRanks;
+      const float times = shared::splashTimes(rank, distance_m);
+      sum += static_cast<double>(times);
+      // No level's job is left out before its last rank is.
+      for (uint32_t level = 0; level < shared::kSplashLevels; ++level) {
+        const glm::vec2 ranks = shared::splashRanks(level);
+        if (rank > ranks.x && rank < ranks.y && distance_m > shared::splashReach_m(level)) {
+          EXPECT_EQ(times, 0.0f);
+        }
+      }
+    }
+    EXPECT_NEAR(sum / kRanks, 1.0, 2e-3) << distance_m;
+  }
+}
+
+// Of any size and at any place on the grid of pixels, and of a picture that leans.
+TEST(Splashes, coverAsMuchAtEverySize) {
+  for (const float radius : {0.05f, 0.4f, 1.3f, 6.0f}) {
+    for (const float sine : {0.0f, 0.1f, 0.7f, 1.0f}) {
+      const float height = 1.4f * radius * (1.0f - sine), rim = 0.12f * radius;
+      for (const glm::vec2 offset : {glm::vec2(0.0f), glm::vec2(0.31f, 0.77f), glm::vec2(0.5f, 0.12f)}) {
+        double sum = 0.0;
+        for (int y = -10; y < 22; ++y) {
+          for (int x = -10; x <= 10; ++x)
+            sum += static_cast<double>(
+                shared::splashCover(glm::vec2(x, y) + offset, 0.5f, radius, height, rim, sine, 1.0f));
+        }
+        // Beads on the rim add up to nothing round the circle, but for how pixels sample them.
+        const auto expected = static_cast<double>(shared::splashCoverSum(radius, height, rim));
+        EXPECT_NEAR(sum, expected, 0.03 * expected) << radius << " px, sine " << sine;
+      }
+    }
+  }
+}
+
+// Against steps of 5 mm up the line, each asked whether it lies in a box: boxes that stand and boxes that
+// move, drops that slant. Places nearer than 1 cm of way to a box's face may go either way.
+TEST(Splashes, areNoneDownStreamOfAVolume) {
+  std::mt19937 random(5);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  struct Body {
+    dvec3 low, high, velocity;
+  };
+  int sheltered = 0, open = 0;
+  for (int round = 0; round < 8; ++round) {
+    std::vector<Body> bodies;
+    rain::Field field;
+    Scene scene = sceneOnGround(50.0);
+    for (uint32_t i = 0; i < 6; ++i) {
+      const dvec3 low(draw(-3, 12), draw(-7, 5), draw(-0.5, 3)),
+          high = low + dvec3(draw(0.5, 6), draw(0.5, 6), draw(0.3, 4));
+      const dvec3 velocity = i < 3 ? dvec3(0.0) : dvec3(draw(-20, 20), draw(-20, 20), 0);
+      bodies.push_back({low, high, velocity});
+      if (i >= 3) {
+        VehicleState vehicle;
+        vehicle.id = i;
+        vehicle.pose.velocity_mps = velocity;
+        scene.vehicles.push_back(vehicle);
+      }
+      ASSERT_EQ(setBox(field, i + 1, low, high, i < 3 ? 0 : i), "");
+    }
+    scene.weather.wind_mps = {draw(-12, 12), draw(-12, 12), 0.0};
+    const SplashPicture picture = pictureOf(scene, field);
+    ASSERT_EQ(picture.volumes.size(), bodies.size());
+    SplashSetup setup;
+    ASSERT_TRUE(setUpSplashes(picture, scene.views[0], picture.time_ns, {}, setup));
+    const dvec3 eye = rain::coneOf(scene.views[0]).eye_m;
+    int tried = 0;
+    each(setup, [&](const shared::SplashJob&, uint32_t i, const shared::Splash& s) {
+      if (i % 16 != 0 || !shared::splashIsAlive(s) || ++tried > 40) return;
+      const dvec3 place = eye + dvec3(s.place_m), fall(s.velocity_mps);
+      constexpr double kStep_m = 0.005, kEither_m = 0.01;
+      bool is_in = false, is_near = false;
+      for (double up_m = 0.0; up_m < 12.0; up_m += kStep_m) {
+        const double before_s = up_m / -fall.z;
+        const dvec3 drop = place - fall * before_s;
+        for (const Body& body : bodies) {
+          const dvec3 in_body = drop + body.velocity * (static_cast<double>(s.age_s) + before_s);
+          const dvec3 out = glm::max(body.low - in_body, in_body - body.high);
+          const double outside_m = std::max({out.x, out.y, out.z});
+          is_in |= outside_m < 0.0 && up_m > kEither_m;
+          is_near |= std::abs(outside_m) < kEither_m;
+        }
+      }
+      const bool told =
+          shared::splashIsSheltered(s.place_m, s.velocity_mps, vec3(0.0f), s.age_s, 0.0f, setup.shelter);
+      EXPECT_TRUE(is_in == told || is_near) << place.x << " " << place.y;
+      ++(told ? sheltered : open);
+    });
+  }
+  EXPECT_GT(sheltered, 50);
+  EXPECT_GT(open, 50);
+}
+
+TEST(Splashes, areNoneWithoutRainOrWithoutGain) {
+  SplashSetup setup;
+  const Scene dry = sceneOnGround(0.0), wet = sceneOnGround(10.0);
+  EXPECT_FALSE(setUpSplashes(pictureOf(dry), dry.views[0], 0, {}, setup));
+  EXPECT_FALSE(setUpSplashes(pictureOf(wet), wet.views[0], 0, {.gain = 0.0}, setup));
+  EXPECT_FALSE(setUpSplashes(pictureOf(wet), wet.views[0], 0, {.reach_m = 0.0}, setup));
+  EXPECT_TRUE(setUpSplashes(pictureOf(wet), wet.views[0], 0, {}, setup));
+  // Too far off for cells, and in a wind that knows no end.
+  ViewState far = wet.views[0];
+  far.eyeFromWorld[3] = glm::dvec4(1e300, 1e300, 0.0, 1.0);
+  EXPECT_FALSE(setUpSplashes(pictureOf(wet), far, INT64_MAX, {}, setup));
+  Scene stormy = wet;
+  VehicleState rocket;
+  rocket.id = stormy.views[0].vehicle = 1;
+  rocket.pose.velocity_mps = {1e9, 0.0, 0.0};
+  stormy.vehicles.push_back(rocket);
+  stormy.weather.wind_mps = {100.0, 100.0, 0.0};
+  EXPECT_TRUE(setUpSplashes(pictureOf(stormy), stormy.views[0], 0, {}, setup));
+  EXPECT_LT(setup.count, 200000u);
+  ViewState none = wet.views[0];
+  none.clipFromEye = glm::dmat4(0.0);
+  EXPECT_FALSE(setUpSplashes(pictureOf(wet), none, 0, {}, setup));
+}
+
+}  // namespace
+}  // namespace rg::surroundings::test
