@@ -253,6 +253,7 @@ rg_result getRainStats(rg_instance* instance, rg_rain_stats* out) {
     r.live_hail = live(Hydrometeor::kHail);
     r.live_bounced = live(Hydrometeor::kBouncedHail);
     r.bounced = s.bounced;
+    r.ground_water_mm = frame.waterOnGround_mm();
     writeStruct(out, r, "rg_rain_stats");
   });
 }

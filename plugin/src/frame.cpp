@@ -9,6 +9,8 @@
 namespace rg {
 namespace {
 
+constexpr double kTypicalFall_mps = 6.0;  // of the drops that bring most water, at 25 mm/h
+
 // The tick at or before a time: ticks run once their moment has come.
 int64_t tickAt(int64_t time_ns) {
   int64_t tick = time_ns / 1'000'000'000 * kTickHz + time_ns % 1'000'000'000 * kTickHz / 1'000'000'000;
@@ -26,6 +28,7 @@ Frame::Frame(const rg_create_info& info)
   stage_.rain_upload = timers_.add("rain_upload", true);
   stage_.glass_step = timers_.add("glass_step", true);
   stage_.captures = timers_.add("captures", true);
+  stage_.wetness = timers_.add("wetness", true);
   stage_.splashes = timers_.add("splashes", true);
   stage_.rain_beyond = timers_.add("rain_beyond", true);
   stage_.rain_draw = timers_.add("rain_draw", true);
@@ -221,6 +224,7 @@ void Frame::runTick(int64_t index, bool rain_only) {
     field_.tick(tick);
     beyond_.tick(tick, wind_profile_);
     splashes_.tick(tick, wind_profile_);
+    wetness_.tick(tick);
   }
   if (rain_only) return;
   const gl::ScopedStage timed(timers_, stage_.glass_tick);
@@ -233,6 +237,7 @@ void Frame::reset() {
   field_.reset();
   beyond_.reset();
   splashes_.reset();
+  wetness_.reset();
   washes_.clear();
   for (auto& [id, p] : panes_) {
     p.sim->reset();
@@ -245,6 +250,7 @@ void Frame::reset() {
   field_.publishAll(upload_);
   publishBeyond();
   publishSplashes();
+  publishWetness();
 }
 
 void Frame::seek(int64_t time_ns) {
@@ -288,6 +294,7 @@ void Frame::publish() {
     field_.publish(upload_);
   publishBeyond();
   publishSplashes();
+  publishWetness();
 }
 
 void Frame::publishBeyond() {
@@ -301,7 +308,21 @@ void Frame::publishSplashes() {
   field_.volumesNear(splash_picture_.eyes_m, surroundings::kSplashShelter_m, splash_picture_.volumes);
 }
 
+void Frame::publishWetness() {
+  wetness_picture_.time_ns = splash_picture_.time_ns;
+  wetness_picture_.share = wetness_.share();
+  wetness_picture_.fall_mps = splash_picture_.drift_mps - glm::dvec3(0, 0, kTypicalFall_mps);
+  wetness_picture_.volumes.clear();
+  if (settings_.wetness_strength > 0.0)
+    field_.volumesNear(splash_picture_.eyes_m, surroundings::kWetShelter_m, wetness_picture_.volumes);
+}
+
 // ---- questions ----
+
+double Frame::waterOnGround_mm() {
+  const std::lock_guard lock(sim_);
+  return wetness_.water_mm();
+}
 
 rain::FieldStats Frame::rainStats() {
   const std::lock_guard lock(sim_);

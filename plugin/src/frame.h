@@ -25,6 +25,8 @@
 #include "rain/rain_gl.h"
 #include "settings.h"
 #include "surroundings/splashes.h"
+#include "surroundings/wetness.h"
+#include "surroundings/wetness_gl.h"
 #include "timeline.h"
 
 namespace rg {
@@ -121,6 +123,7 @@ class Frame {
   // Questions.
   rain::FieldStats rainStats();
   double rainRate();
+  double waterOnGround_mm();
   // False when more volumes are near the views than streaks can be clipped at; see setUpStreaks.
   bool nearVolumesFit() const;
   glass::PaneStats paneStats(uint32_t pane);
@@ -149,6 +152,7 @@ class Frame {
   void publish();
   void publishBeyond();
   void publishSplashes();
+  void publishWetness();
   void requireMoment(int64_t time_ns) const;
 
   mutable std::mutex sim_;  // of all below; held by update throughout, by the GL thread for moments
@@ -159,6 +163,8 @@ class Frame {
   rain::BeyondPicture beyond_picture_;
   surroundings::Splashes splashes_;
   surroundings::SplashPicture splash_picture_;
+  surroundings::Wetness wetness_;
+  surroundings::WetnessPicture wetness_picture_;
   rain::RainPattern pattern_;  // empty: the project's own
   uint32_t pattern_version_ = 1;
   std::map<uint32_t, PaneObject> panes_;
@@ -181,8 +187,8 @@ class Frame {
 
   gl::Timers timers_;
   struct Stages {
-    gl::Timers::Stage rain_tick, glass_tick, rain_upload, glass_step, captures, splashes, rain_beyond,
-        rain_draw, glass_draw, finish;
+    gl::Timers::Stage rain_tick, glass_tick, rain_upload, glass_step, captures, wetness, splashes,
+        rain_beyond, rain_draw, glass_draw, finish;
   } stage_;
   std::unique_ptr<Gl> gl_;
 };

@@ -67,6 +67,7 @@ Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
   rain = std::make_unique<rain::RainRenderer>(*context, capacity);
   beyond = std::make_unique<rain::BeyondRenderer>(*context);
   splashes = std::make_unique<surroundings::SplashRenderer>(*context);
+  wetness = std::make_unique<surroundings::WetnessRenderer>(*context);
   film_programs = glass::makeFilmPrograms(context->gl);
   look = std::make_unique<glass::GlassLook>(context->gl);
   gl::throwOnError(context->gl, "attach_gl");
@@ -81,6 +82,7 @@ void Frame::Gl::forget() {
   rain->forget();
   beyond->forget();
   splashes->forget();
+  wetness->forget();
   look->abandon();
   for (auto& [id, half] : panes) half.gl->abandon();
   glass::abandonFilmPrograms(*film_programs);
@@ -111,6 +113,7 @@ void Frame::detach() {
     gl.rain.reset();
     gl.beyond.reset();
     gl.splashes.reset();
+    gl.wetness.reset();
     gl.look.reset();
     gl.film_programs.reset();
   }
@@ -160,6 +163,7 @@ void Frame::stepGpu() {
     gl.rain->upload(upload_);
     gl.beyond->take(beyond_picture_);
     gl.splashes->take(splash_picture_);
+    gl.wetness->take(wetness_picture_);
     if (gl.pattern_version != pattern_version_)
       gl.beyond->setPattern(pattern_.rgba.empty() ? rain::generatePattern() : pattern_);
     gl.pattern_version = pattern_version_;
@@ -211,6 +215,10 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
   draw.lighting = request.lighting;
   draw.lighting.lamps = request.lamps;
   draw.gain = static_cast<float>(now.rain_gain);
+  {
+    const gl::ScopedStage timed(timers_, stage_.wetness);
+    gl.wetness->draw(draw, now.wetness_strength);
+  }
   {
     const gl::ScopedStage timed(timers_, stage_.splashes);
     gl.splashes->draw(draw, {now.splashes_gain, now.splashes_reach_m});

@@ -31,6 +31,7 @@ struct Frame::Gl {
   std::unique_ptr<rain::RainRenderer> rain;
   std::unique_ptr<rain::BeyondRenderer> beyond;
   std::unique_ptr<surroundings::SplashRenderer> splashes;
+  std::unique_ptr<surroundings::WetnessRenderer> wetness;
   uint32_t pattern_version = 0;
   std::shared_ptr<glass::FilmPrograms> film_programs;
   std::unique_ptr<glass::GlassLook> look;

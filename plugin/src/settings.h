@@ -17,6 +17,7 @@ struct Settings {
   double rain_haze_bias = 1.0;
   double splashes_gain = 3.0;
   double splashes_reach_m = 20.0;
+  double wetness_strength = 0.0;
   double glass_brightness = 1.0;
   double glass_blur = 1.0;
   double glass_internal_reflections = 3.0;
@@ -76,6 +77,10 @@ inline constexpr SettingInfo kSettings[] = {
      0.0, 20.0, &Settings::splashes_gain},
     {"splashes.reach_m", "m", "splashes", "how far from the eye splashes are drawn, the last third fading",
      0.0, 40.0, &Settings::splashes_reach_m},
+    {"wetness.strength", "1", "wetness",
+     "how wet rain makes what the host has drawn look, darker and mirroring; 0 = not at all: for hosts that "
+     "draw wet surfaces themselves",
+     0.0, 1.0, &Settings::wetness_strength},
     {"glass.brightness", "1", "glass", "of what is seen through water", 0.0, 2.0,
      &Settings::glass_brightness},
     {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0,

@@ -54,7 +54,7 @@ RG_SIZE(RainClass, 48)
 // A convex volume near the eye: planes [first, first + count) of RainShelter.planes.
 struct RainVolume {
   vec4 sphere;    // centre from the eye, radius
-  vec4 velocity;  // xyz: of its body, m/s
+  vec4 velocity;  // xyz: of its body, m/s; w: 1 where it has one
   uint first;
   uint count;
   uint spare0;

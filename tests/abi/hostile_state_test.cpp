@@ -39,7 +39,11 @@ rg_result prepareCaptures(SmallScene& scene, const rg_target&) {
 const Call kCalls[] = {
     {"step_gpu", [](SmallScene& s, const rg_target&) { return s.api.step_gpu(s.instance); }},
     {"prepare_captures", prepareCaptures},
-    {"draw_world", [](SmallScene& s, const rg_target& t) { return s.draw(s.api.draw_world, t); }},
+    {"draw_world",
+     [](SmallScene& s, const rg_target& t) {
+       s.expect(s.api.set_parameter(s.instance, "wetness.strength", 1.0));
+       return s.draw(s.api.draw_world, t);
+     }},
     {"draw_glass", [](SmallScene& s, const rg_target& t) { return s.draw(s.api.draw_glass, t); }},
     {"draw_finish", [](SmallScene& s, const rg_target& t) { return s.draw(s.api.draw_finish, t); }},
     {"get_pane_stats",

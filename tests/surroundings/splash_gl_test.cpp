@@ -18,13 +18,7 @@ constexpr uint32_t kTouches = RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_
                               RG_TOUCHED_TEXTURES | RG_TOUCHED_FRAMEBUFFER | RG_TOUCHED_VIEWPORT |
                               RG_TOUCHED_BLEND | RG_TOUCHED_DEPTH | RG_TOUCHED_RASTER |
                               RG_TOUCHED_PIXEL_STORE;
-constexpr double kNear_m = 0.1, kFar_m = 1000.0;  // of scene.h's views
-
-// How far from the eye, in lengths of `ray`, the scene is that the host has drawn.
-using Surface = double (*)(const dvec3& eye, const dvec3& ray);
-double levelGround(const dvec3& eye, const dvec3& ray) { return ray.z < 0.0 ? -eye.z / ray.z : 1e9; }
 double nothing(const dvec3&, const dvec3&) { return 1e9; }
-double wallAt2m(const dvec3&, const dvec3& ray) { return ray.x > 0.0 ? 2.0 / ray.x : 1e9; }
 // A box 0.8 m high on the ground, 4 to 6 m ahead.
 double bench(const dvec3& eye, const dvec3& ray) {
   const double front = (4.0 - eye.x) / ray.x, top = (0.8 - eye.z) / ray.z;
@@ -55,7 +49,7 @@ class SplashPictures : public rg::test::GlTest {
     const gl::Framebuffer target(loaded->gl, {&colour}, &deep);
     const float black[] = {0.0f, 0.0f, 0.0f, 0.5f};
     loaded->gl.ClearNamedFramebufferfv(target.name(), GL_COLOR, 0, black);
-    const std::vector<float> stored = depthOf(scene.views[0], asked);
+    const std::vector<float> stored = storedDepth(scene.views[0], width, height, asked.surface);
     deep.write(0, 0, 0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, stored.data());
 
     rain::RainDraw request;
@@ -78,24 +72,6 @@ class SplashPictures : public rg::test::GlTest {
   void TearDown() override {
     renderer.reset();
     GlTest::TearDown();
-  }
-
-  static std::vector<float> depthOf(const ViewState& view, const Asked& asked) {
-    const rain::Cone cone = rain::coneOf(view);
-    const rain::Rays rays = rain::raysOf(cone, view);
-    std::vector<float> stored;
-    for (int y = 0; y < asked.height; ++y) {
-      for (int x = 0; x < asked.width; ++x) {
-        const double clip_x = 2.0 * (x + 0.5) / asked.width - 1.0,
-                     clip_y = 2.0 * (y + 0.5) / asked.height - 1.0;
-        const double depth_m = std::clamp(
-            asked.surface(cone.eye_m, rays.middle + clip_x * rays.right + clip_y * rays.up), kNear_m, kFar_m);
-        const double ndc =
-            (kFar_m + kNear_m) / (kFar_m - kNear_m) - 2.0 * kFar_m * kNear_m / ((kFar_m - kNear_m) * depth_m);
-        stored.push_back(static_cast<float>(0.5 * ndc + 0.5));
-      }
-    }
-    return stored;
   }
 
   static double sum(const rg::test::Picture& picture, int from_row = 0, int to_row = 1 << 20) {

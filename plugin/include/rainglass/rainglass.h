@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 4u
+#define RG_ABI_MINOR 5u
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -444,6 +444,9 @@ typedef struct rg_rain_stats {
   uint64_t live_hail;    /* stones that fall, */
   uint64_t live_bounced; /* and that have bounced */
   uint64_t bounced;      /* stones so far */
+  /* Since minor 5. */
+  double ground_water_mm; /* that lies on open ground, 0 .. 1; the rest has run off. Dries by temperature,
+                             humidity and wind (Penman 1948) */
 } rg_rain_stats;
 
 /* The ledger of a pane, mL since it was made or reset. caught = on_glass + drained + wiped + blown +
@@ -573,11 +576,13 @@ typedef struct rg_api {
                       size_t stride);
   rg_result (*step_gpu)(rg_instance* instance);                                      /* [thread: GL] */
   rg_result (*prepare_captures)(rg_instance* instance, const rg_capture_info* info); /* [thread: GL] */
-  /* Splashes on what you have drawn, where it looks up and rain reaches it (parameters splashes.*; found by
-   * the depth_texture, or without one at rg_weather.ground_height_m). Falling drops, and behind them the veil of the rain that is too far off to be drops: as much as there is
-   * in the open air (outside all volumes) between the eye and what the depth buffer holds, or the clouds. So
-   * draw your own haze with the air's visibility alone. Without a depth_texture (and color_texture) the veil
-   * is drawn layer by layer, each tested as a whole at its middle. [thread: GL] */
+  /* What is rained on looks wet, if you ask for it (parameter wetness.strength). Splashes on what you have
+   * drawn, where it looks up and rain reaches it (parameters splashes.*; found by the depth_texture, or
+   * without one at rg_weather.ground_height_m). Falling drops, and behind them the veil of the rain that is
+   * too far off to be drops: as much as there is in the open air (outside all volumes) between the eye and
+   * what the depth buffer holds, or the clouds. So draw your own haze with the air's visibility alone.
+   * Without a depth_texture (and color_texture) nothing is made wet, and the veil is drawn layer by layer,
+   * each tested as a whole at its middle. [thread: GL] */
   rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);
   rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);  /* [thread: GL] */
   rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw); /* [thread: GL] */

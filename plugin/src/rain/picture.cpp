@@ -47,7 +47,7 @@ double setUpShelter(std::span<const NearVolume> volumes, const dvec3& eye, doubl
     }
     shared::RainVolume& volume = shelter.volumes[shelter.volume_count++];
     volume = {vec4(vec3(posed.centre - eye), static_cast<float>(posed.volume->radius_m)),
-              vec4(vec3(posed.pose.velocity_mps), 0.0f),
+              vec4(vec3(posed.pose.velocity_mps), posed.volume->vehicle != 0 ? 1.0f : 0.0f),
               planes,
               count,
               0,
