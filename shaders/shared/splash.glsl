@@ -1,7 +1,8 @@
 // Splashes: where and when drops throw water up from what they meet, as a function of place and time alone, and how a crown looks.
 //
 // Drops that are large enough fall along lines. Where lines stand is hashed by (cell of a level lattice, epoch): a Poisson field in place and
-// time, of the rain's own flux, that knows neither views nor frames. Where a line meets the scene is for the picture to find. In GLSL, declare
+// time, of the rain's own flux, that knows neither views nor frames (but for the height it is laid out at where the host tells no ground: that is
+// guessed from the first view's eye). Where a line meets the scene is for the picture to find. In GLSL, declare
 // `RainShelter rain_shelter` (a uniform block's) before including this, and for splashOf define SPLASH_RAIN_BINDING, the uniform
 // block it is bound to.
 #ifndef RG_SHARED_SPLASH_GLSL
@@ -96,6 +97,9 @@ RG_FN float splashSize_m(float u RG_SPLASH_RAIN) {
 }
 #endif
 
+// Against whatever wind or vehicle a drop comes down this fast, as lines that rise would meet nothing (by eye).
+RG_CONST float kSplashLeastFall_mps = 0.5f;
+
 // Of a level the ranks are those between 1/4 and 1 of the level's own; the last has all that is left.
 RG_FN vec2 splashRanks(uint level) {
   float most = 1.0f / float(1u << (2u * level));
@@ -128,7 +132,7 @@ RG_FN Splash splashOf(RG_IN(SplashJob) job, uint index RG_SPLASH_RAIN) {
   s.diameter_m = splashSize_m(unitFloat(a.z) RG_SPLASH_RAIN_PASS);
   s.place_m = xyz(job.corner) + job.corner.w * vec3(unitFloat(a.x), unitFloat(a.y), 0.0f);
   vec4 drift = splash_rain.drift[lattice];
-  s.velocity_mps = vec3(drift.x, drift.y, drift.z - splashFallSpeed(1.0e3f * s.diameter_m));
+  s.velocity_mps = vec3(drift.x, drift.y, min(drift.z - splashFallSpeed(1.0e3f * s.diameter_m), -kSplashLeastFall_mps));
   s.age_s = job.since_s - kSplashEpoch_s * (float(index) + unitFloat(a.w)) / float(job.number);  // spread over the epoch in the order of their numbers
   s.life_s = splashLife_s(s.diameter_m);
   s.rank = mix(ranks.x, ranks.y, openUnitFloat(b.x));

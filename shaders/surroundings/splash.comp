@@ -19,6 +19,7 @@ layout(location = 1) uniform uint splash_count;
 const float kNowhere = -1e9;
 const float kLeastPart_px = 0.25;  // droplets of a lesser radius in the picture are not drawn
 const float kLift_m = 0.05;        // so much nearer to the eye a splash is held against a depth buffer, as it stands on what is there
+const float kBrightest = 65408.0;  // that halves hold
 const float kLeastFall_m = 0.3;    // of the ground below the eye, for what a pixel's depth is worth
 
 shared uint maybe[kSplashGroup], job_of[kSplashGroup], maybe_bits[kSplashGroup / 32u], maybe_before[kSplashGroup / 32u + 1u];
@@ -123,7 +124,7 @@ bool stands(Splash s, uint lattice, out vec3 foot) {
 #else
 bool stands(Splash s, uint lattice, out vec3 foot) {
   foot = splashOnLine(s, 0.0);
-  return lattice == 0u;
+  return lattice == 0u && foot.z <= 0.0;
 }
 #endif
 
@@ -146,7 +147,8 @@ bool mayBeSeen(SplashJob job, uint number) {
   vec4 a = look.clipFromWorldAtEye * vec4(low, 1.0), b = look.clipFromWorldAtEye * vec4(high, 1.0);
   bvec2 left = lessThan(max(a.xy + a.w, b.xy + b.w), vec2(0.0)), right = lessThan(max(a.w - a.xy, b.w - b.xy), vec2(0.0));
   // A line is nowhere nearer than where it passes the eye, and farther ranks count less.
-  return splashIsAlive(s) && !any(left) && !any(right) && splashTimes(s.rank, min(length(low.xy), length(high.xy))) > 0.0;
+  vec2 way = high.xy - low.xy, nearest = low.xy + way * clamp(-dot(low.xy, way) / max(dot(way, way), 1e-6), 0.0, 1.0);
+  return splashIsAlive(s) && !any(left) && !any(right) && splashTimes(s.rank, length(nearest)) > 0.0;
 }
 
 struct Seen {
@@ -244,7 +246,7 @@ void main() {
     barrier();
     uint crowns = crowns_before[kSplashLanes / 32u], nears = droplets_before[kSplashLanes / 32u];
     for (bool shows = is_seen; shows; shows = false) {
-      vec3 light = asInTarget(gathered(seen.foot));
+      vec3 light = clamp(asInTarget(gathered(seen.foot)), vec3(0.0), vec3(kBrightest));
       float phase = float(s.seed & 1023u) * (6.2831853 / 1024.0);
       uint part = parts + RANK(crown_bits, crowns_before, lane);
       if (part < kSplashParts) put(first + part, seen.foot, splashCrown(s.diameter_m, s.age_s / s.life_s), light, seen.times, phase);

@@ -12,7 +12,9 @@ layout(location = 0) out vec4 colour;
 const float kBlurred = 4.0;  // levels of the cube map that are left out: the mirror is rough (by eye)
 
 void main() {
-  float stored = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
+  // Neighbours that are asked for derivatives alone may lie beside the viewport.
+  vec2 low = look.viewport.xy + 0.5, at = clamp(gl_FragCoord.xy, low, low + look.viewport.zw - 1.0);
+  float stored = texelFetch(scene_depth, ivec2(at), 0).r;
   bool is_sky = stored == (look.depth_rows.y > 0.0 ? 0.0 : 1.0);
   float depth = rainSceneDepth(stored, look.depth_rows, look.zero_to_one);
   vec3 place = (view.ray_middle.xyz + clip.x * view.ray_right.xyz + clip.y * view.ray_up.xyz) * depth;

@@ -33,6 +33,7 @@ struct Asked {
   Surface surface = levelGround;
   double gain = 1.0;
   bool read_depth = true;
+  float sky = 1.0f / 0.94f;
 };
 
 class SplashPictures : public rg::test::GlTest {
@@ -63,7 +64,7 @@ class SplashPictures : public rg::test::GlTest {
                       height,
                       false,
                       1.0f};
-    request.lighting.sky_radiance = request.lighting.ground_radiance = vec3(1.0f / 0.94f);
+    request.lighting.sky_radiance = request.lighting.ground_radiance = vec3(asked.sky);
     if (!renderer) renderer = std::make_unique<SplashRenderer>(*loaded);
     renderer->take(picture);
     renderer->draw(request, {.gain = asked.gain});
@@ -90,6 +91,18 @@ class SplashPictures : public rg::test::GlTest {
 };
 
 constexpr int64_t kTime_ns = 3'333'000'000;
+
+// A host in cd/m^2 without exposure, and air that rises faster than drops fall: finite everywhere.
+TEST_F(SplashPictures, ofGlaringSkiesAndRisingAirAreFinite) {
+  Scene scene = sceneOnGround(50.0);
+  look(scene.views[0], {0, 0, 1.5}, 0.0, -0.25);
+  for (const double rising_mps : {0.0, 4.0, 100.0}) {
+    scene.weather.wind_mps = dvec3(10.0, 0.0, rising_mps);
+    const rg::test::Picture picture = draw(scene, pictureOf(scene), kTime_ns, {.sky = 1e6f});
+    EXPECT_GT(sum(picture), 0.0);
+    for (const glm::vec4& pixel : picture.pixels) ASSERT_TRUE(std::isfinite(pixel.x)) << rising_mps;
+  }
+}
 
 // The picture's mean is of all that is covered on the ground seen, by the law of its drops: every splash at
 // its age, counted on the CPU as the kernel tells it. To 4 %: beads, and what lies across the picture's rim.

@@ -577,12 +577,12 @@ typedef struct rg_api {
   rg_result (*step_gpu)(rg_instance* instance);                                      /* [thread: GL] */
   rg_result (*prepare_captures)(rg_instance* instance, const rg_capture_info* info); /* [thread: GL] */
   /* What is rained on looks wet, if you ask for it (parameter wetness.strength). Splashes on what you have
-   * drawn, where it looks up and rain reaches it (parameters splashes.*; found by the depth_texture, or
-   * without one at rg_weather.ground_height_m). Falling drops, and behind them the veil of the rain that is
-   * too far off to be drops: as much as there is in the open air (outside all volumes) between the eye and
-   * what the depth buffer holds, or the clouds. So draw your own haze with the air's visibility alone.
-   * Without a depth_texture (and color_texture) nothing is made wet, and the veil is drawn layer by layer,
-   * each tested as a whole at its middle. [thread: GL] */
+   * drawn, where it looks up and rain reaches it (parameters splashes.*; found by the depth_texture, given
+   * with color_texture, or without them at rg_weather.ground_height_m). Falling drops, and behind them the
+   * veil of the rain that is too far off to be drops: as much as there is in the open air (outside all
+   * volumes) between the eye and what the depth buffer holds, or the clouds. So draw your own haze with the
+   * air's visibility alone. Without a depth_texture (and color_texture) nothing is made wet, and the veil is
+   * drawn layer by layer, each tested as a whole at its middle. [thread: GL] */
   rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);
   rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);  /* [thread: GL] */
   rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw); /* [thread: GL] */

@@ -95,7 +95,7 @@ void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_
   for (size_t slot = 0; slot < all.size(); ++slot) {
     const Drop& drop = all[slot];
     if (drop.volume_pl <= 0) continue;
-    const glm::ivec2 tile(drop.place_m * tiles_per_m);
+    const glm::ivec2 tile = glm::min(glm::ivec2(drop.place_m * tiles_per_m), world.map.tileCount() - 1);
     const bool near = tiles_near[static_cast<size_t>(tile.y * world.map.tileCount().x + tile.x)];
     const auto radius_m = static_cast<double>(drop.base_radius_m);
     if ((near || radius_m > kWide_m) && wiper.mayCross(drop.texel, strip, radius_m))

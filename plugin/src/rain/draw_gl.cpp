@@ -103,7 +103,7 @@ void Canvas::setState(const RainDraw& draw) {
     gl_.DepthFunc(draw.view->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
   }
   if (draw.target.color_texture != 0) {
-    // Read before anything is drawn, not while it is.
+    // Read by kernels between draws, not while one draws.
     gl_.BindTextureUnit(2, draw.target.color_texture);
     gl_.BindSampler(2, nearest_.name());
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rain/class_frames.h"
 #include "rain/motion.h"
@@ -82,7 +83,9 @@ class Cells {
  private:
   // Of the slowest drops, which slant most: metres aside for each up.
   static dvec2 slantOf(const Lattice& lattice) {
-    return dvec2(lattice.drift_mps) / -rain::fallSpeed(static_cast<double>(shared::kSplashFrom_mm));
+    const double falls_mps =
+        rain::fallSpeed(static_cast<double>(shared::kSplashFrom_mm)) - lattice.drift_mps.z;
+    return dvec2(lattice.drift_mps) / -std::max(falls_mps, static_cast<double>(shared::kSplashLeastFall_mps));
   }
 
   // What of the lines of a cell lies between the heights searched, as a box.
@@ -168,6 +171,9 @@ void Splashes::tick(const Tick& tick, const rain::WindProfile& profile) {
   const double rate_mm_h = tick.weather.rain_mm_h, from_mm = static_cast<double>(shared::kSplashFrom_mm);
   SplashPicture& p = picture_;
   p.time_ns = tick.time_ns;
+  // As the rain's: wherever a host has its origin, it sees the same splashes about its car.
+  if (!std::exchange(started_, true) && !tick.vehicles.empty())
+    p.origin_m = dvec3(dvec2(tick.vehicles.front().pose.position_m), 0.0);
   const rain::SizeLaw law = rain::SizeLaw::of(rate_mm_h);
   if (rate_mm_h != sized_for_mm_h_) {
     sized_for_mm_h_ = rate_mm_h;
@@ -204,7 +210,8 @@ SplashesInCells::SplashesInCells(double mean) {
   constexpr double kRarest = 1e-8;  // half of what the hash can tell
   double share = std::exp(-mean);
   sums_.push_back(share);
-  while (sums_.back() < 1.0 - kRarest) {
+  // Of so large a mean that the first share is 0 to a double, all cells hold the mean.
+  while (sums_.back() < 1.0 - kRarest && (share > 0.0 || static_cast<double>(sums_.size()) < mean)) {
     share *= mean / static_cast<double>(sums_.size());
     sums_.push_back(sums_.back() + share);
   }
@@ -230,6 +237,7 @@ bool setUpSplashes(const SplashPicture& picture, const ViewState& view, int64_t 
   out.rain.ray_up = wide(rays.up);
   // Where a volume may stand that found no room, nothing is drawn.
   const double reach_m = std::min({look.reach_m, kMostSplashReach_m, known_m});
+  if (!(reach_m > 0.0)) return false;
   for (uint32_t k = 0; k <= kSplashSizes; ++k)
     out.rain.sizes_mm[k / 4][static_cast<int>(k % 4)] = picture.sizes_mm[k];
 

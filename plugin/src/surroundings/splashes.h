@@ -36,8 +36,9 @@ struct SplashPicture {
   glm::dvec3 drift_mps{0.0};                               // of the wind, as far as they have it
   double ground_m = 0.0;                                   // where they are looked for first, world z
   bool ground_known = false;                               // told by the host; else by the eye's height
-  glm::dvec3 origin_m{0.0};                                // of the lattices: what the host's world moved by
-  std::vector<Vehicle> vehicles;                           // that views are in
+  glm::dvec3 origin_m{
+      0.0};  // of the lattices: where the first vehicle stood, as the host's world has moved since
+  std::vector<Vehicle> vehicles;  // that views are in
   std::vector<glm::dvec3> eyes_m;
   std::vector<rain::NearVolume> volumes;
 };
@@ -53,6 +54,7 @@ class Splashes {
 
  private:
   double sized_for_mm_h_ = -1.0;
+  bool started_ = false;  // the lattice has its origin
   SplashPicture picture_;
 };
 
