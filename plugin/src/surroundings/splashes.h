@@ -36,8 +36,8 @@ struct SplashPicture {
   glm::dvec3 drift_mps{0.0};                               // of the wind, as far as they have it
   double ground_m = 0.0;                                   // where they are looked for first, world z
   bool ground_known = false;                               // told by the host; else by the eye's height
-  glm::dvec3 origin_m{
-      0.0};  // of the lattices: where the first vehicle stood, as the host's world has moved since
+  // Of the lattices: where the first vehicle stood, in the host's world as it is now.
+  glm::dvec3 origin_m{0.0};
   std::vector<Vehicle> vehicles;  // that views are in
   std::vector<glm::dvec3> eyes_m;
   std::vector<rain::NearVolume> volumes;
