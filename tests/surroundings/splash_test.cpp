@@ -242,5 +242,16 @@ TEST(Splashes, areNoneWithoutRainOrWithoutGain) {
   EXPECT_FALSE(setUpSplashes(pictureOf(wet), none, 0, {}, setup));
 }
 
+// Air that rises faster than drops fall does not turn lines round: they still come down on what they meet.
+TEST(Splashes, comeDownInRisingAir) {
+  Scene scene = sceneOnGround(50.0);
+  scene.weather.wind_mps = dvec3(10.0, 0.0, 30.0);
+  SplashSetup setup;
+  ASSERT_TRUE(setUpSplashes(pictureOf(scene), scene.views[0], 1'000'000'000, {}, setup));
+  each(setup, [](const shared::SplashJob&, uint32_t, const shared::Splash& s) {
+    ASSERT_LE(s.velocity_mps.z, -shared::kSplashLeastFall_mps);
+  });
+}
+
 }  // namespace
 }  // namespace rg::surroundings::test
