@@ -282,5 +282,29 @@ TEST_F(Wiping, leavesNoDropUnderTheBladesWay) {
   }
 }
 
+// Drops on other tiles are not looked at: no texel that a sweep may cross lies on one of them.
+TEST(WiperTiles, knowEveryTexelThatASweepMayCross) {
+  const glass::PaneMap map(paneInfo(windscreen(0.5, 0.4)));
+  constexpr double kRadius_m = 3e-3;
+  const int columns = map.grid().size.x;
+  for (const Linkage& linkage : kLinkages) {
+    const glass::Wiper wiper(wiperOf(linkage), map, 0);
+    for (double angle = linkage.from_rad; angle < linkage.to_rad; angle += rad(7)) {
+      const glass::SweptStrip strip = wiper.stripOf({angle, angle + rad(2)});
+      const std::vector<bool> near = wiper.tilesNear(strip, kRadius_m);
+      int left_out = 0;
+      for (int i = 0; i < map.texelCount(); ++i) {
+        if (!map.inside(i)) continue;
+        const glm::ivec2 tile = glm::ivec2(i % columns, i / columns) / shared::kTileSize;
+        const bool known = near[static_cast<size_t>(tile.y * map.tileCount().x + tile.x)];
+        if (known) continue;
+        ++left_out;
+        ASSERT_FALSE(wiper.mayCross(i, strip, kRadius_m)) << linkage.name << " texel " << i;
+      }
+      EXPECT_GT(left_out, 0) << "tiles tell nothing apart";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rg::test
