@@ -25,7 +25,8 @@ class Window : public testing::Test {
   // Small and without rain before the drive: software GL is slow. The window is there when its title tells
   // the speed.
   void open(const std::string& more = "", const std::string& size = "320x180") {
-    std::vector<std::string> words{"--size", size, "--set", "prewarm_s=0", "--gl-debug", "--out", folder_.string()};
+    std::vector<std::string> words{"--size",     size,    "--set",         "prewarm_s=0",
+                                   "--gl-debug", "--out", folder_.string()};
     std::istringstream in(more);
     for (std::string word; in >> word;) words.push_back(word);
     host_ = std::make_unique<Process>(

@@ -53,7 +53,8 @@ void raise(const GladGLContext& gl, GLenum error) {
     case GL_INVALID_ENUM:
       return gl.Enable(0xFFFF);
     case GL_INVALID_VALUE:
-      return gl.Viewport(0, 0, -1, -1);  // no clear: where nothing is bound to draw into, that is another error
+      return gl.Viewport(0, 0, -1,
+                         -1);  // no clear: where nothing is bound to draw into, that is another error
     case GL_INVALID_OPERATION:
       return raiseInvalidOperation(gl);
     case GL_INVALID_FRAMEBUFFER_OPERATION:

@@ -9,8 +9,8 @@
 
 namespace rg::surroundings {
 
-// As far from the eye volumes keep ground dry, the nearest of them that find room (kRainNearVolumes); beyond all
-// is wet.
+// As far from the eye volumes keep ground dry, the nearest of them that find room (kRainNearVolumes); beyond
+// all is wet.
 inline constexpr double kWetShelter_m = 150.0;
 
 struct WetnessPicture {
