@@ -75,10 +75,15 @@ RG_FN Beads withoutPart(RG_IN(Beads) beads, int taken_pl) {
 
 // A film breaks at holes; between them it gathers into ridges, half cylinders of radius a that pinch off every nine radii (Rayleigh & Plateau's
 // fastest wave, 2 pi sqrt(2) a = 8.9 a). Holes a distance s apart, in squares: a ridge of length 2 s for each s^2, so pi a^2 / 2 = h s / 2.
-RG_CONST float kHoles_m = 1.5e-3f;  // (unsourced)
-RG_FN int beadsOfBrokenFilm(float h_m, float per_m2) {
-  float ridge_m = sqrt(h_m * kHoles_m / 3.1415927f);
-  return int(min(max(2.0f / (9.0f * kHoles_m * ridge_m * per_m2) + 0.5f, 1.0f), float(kMostBeads)));
+// A hole opens only where a speck is wider than the film's rim would close over, some tenths of a millimetre for films of 20 um on glass that
+// water leaves at 10 degrees: such specks lie millimetres apart, and unevenly (by eye).
+RG_CONST float kHoles_m = 4.0e-3f;  // (unsourced)
+RG_FN int beadsOfBrokenFilm(float h_m, uint place, float per_m2) {
+  float u = unitFloat(pcg(place + 0x51ed270bu));
+  float holes_m = kHoles_m * (0.5f + 1.5f * u * u);
+  float ridge_m = sqrt(h_m * holes_m / 3.1415927f);
+  float number = 2.0f / (9.0f * holes_m * ridge_m * per_m2);
+  return int(min(max(number + unitFloat(pcg(place + 0x2545f491u)), 1.0f), float(kMostBeads)));
 }
 
 // --- where they lie, in texels ---
@@ -114,7 +119,8 @@ RG_FN SeatedBead seatedBead(uint texel, ivec2 seen_cell, int number, float mean)
   ivec2 cell = number == 1 ? ivec2(int(first) % 2, int(first) / 2) : seen_cell;
   int rank = int((uint(cell.y * cells + cell.x) * step + turn) % number_of_cells);
   uint pair = pcg(h ^ (uint(rank) >> 1u));
-  float differ = (rank ^ 1) < number ? 0.85f * unitFloat(pair) : 0.0f;
+  float even = 1.0f - unitFloat(pair);
+  float differ = (rank ^ 1) < number ? 0.95f * (1.0f - even * even) : 0.0f;
   float volume = 1.0f + ((rank & 1) != 0 ? differ : -differ);
   float width = 1.0f / float(cells), room = number == 1 ? 1.0f : width;
   float radius = min(mean * pow(volume, 1.0f / 3.0f), 0.5f * room);

@@ -251,7 +251,7 @@ RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) m
   t.gone_pl = film_dried_pl + beads_dried_pl;
   float h_m = thickness_m(t.film_pl, metric);
   int surplus_pl = 0;
-  Beads more = joinedBy(t.beads, t.film_pl, beadsOfBrokenFilm(h_m, metric.z), surplus_pl);
+  Beads more = joinedBy(t.beads, t.film_pl, beadsOfBrokenFilm(h_m, texel ^ info.pane, metric.z), surplus_pl);
   float room = beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
   // Not where they would be too large at once: what dries is left as settled() leaves it, and may sleep on.
   bool breaks = breaksUp(h_m, texel, info) && room >= 1.0f;
