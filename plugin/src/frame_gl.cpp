@@ -38,6 +38,20 @@ rain::BeyondLook beyondLook(const Settings& s) {
           {s.rain_near_contrast, s.rain_middle_contrast, s.rain_far_contrast}};
 }
 
+// As drawing of rain wants it; the request must outlive it.
+rain::RainDraw rainDraw(const DrawRequest& request) {
+  rain::RainDraw draw;
+  draw.view = &request.view;
+  draw.viewport_px = request.viewport_px;
+  draw.time_ns = request.time_ns;
+  draw.target = {request.target.framebuffer, request.target.color_texture, request.depth_texture,
+                 request.target.width_px,    request.target.height_px,     request.target.srgb,
+                 request.target.exposure};
+  draw.lighting = request.lighting;
+  draw.lighting.lamps = request.lamps;
+  return draw;
+}
+
 glm::dmat4 worldFromVehicle(const Pose& pose) {
   glm::dmat4 m = glm::mat4_cast(pose.orientation);
   m[3] = glm::dvec4(pose.position_m, 1.0);
@@ -68,6 +82,7 @@ Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
   beyond = std::make_unique<rain::BeyondRenderer>(*context);
   splashes = std::make_unique<surroundings::SplashRenderer>(*context);
   wetness = std::make_unique<surroundings::WetnessRenderer>(*context);
+  glow = std::make_unique<surroundings::GlowRenderer>(*context);
   film_programs = glass::makeFilmPrograms(context->gl);
   look = std::make_unique<glass::GlassLook>(context->gl);
   gl::throwOnError(context->gl, "attach_gl");
@@ -83,6 +98,7 @@ void Frame::Gl::forget() {
   beyond->forget();
   splashes->forget();
   wetness->forget();
+  glow->forget();
   look->abandon();
   for (auto& [id, half] : panes) half.gl->abandon();
   glass::abandonFilmPrograms(*film_programs);
@@ -114,6 +130,7 @@ void Frame::detach() {
     gl.beyond.reset();
     gl.splashes.reset();
     gl.wetness.reset();
+    gl.glow.reset();
     gl.look.reset();
     gl.film_programs.reset();
   }
@@ -205,15 +222,7 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
   requireTarget(*gl.context, request);
   guarded.drawInto(request.target.framebuffer);
   const Settings now = settings();
-  rain::RainDraw draw;
-  draw.view = &request.view;
-  draw.viewport_px = request.viewport_px;
-  draw.time_ns = request.time_ns;
-  draw.target = {request.target.framebuffer, request.target.color_texture, request.depth_texture,
-                 request.target.width_px,    request.target.height_px,     request.target.srgb,
-                 request.target.exposure};
-  draw.lighting = request.lighting;
-  draw.lighting.lamps = request.lamps;
+  rain::RainDraw draw = rainDraw(request);
   draw.gain = static_cast<float>(now.rain_gain);
   {
     const gl::ScopedStage timed(timers_, stage_.wetness);
@@ -299,13 +308,18 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
   return guarded.touched();
 }
 
-// Nothing is drawn over the whole picture yet; the call checks that it could be.
 uint32_t Frame::drawFinish(const DrawRequest& request) {
   Gl& gl = attached();
   requireMoment(request.time_ns);
-  const gl::StateGuard guarded = gl.guard(0);
-  const gl::ScopedStage timed(timers_, stage_.finish);
+  const double strength = settings().glow_strength;
+  gl::StateGuard guarded = gl.guard(strength > 0.0 ? kDrawTouches : 0);
   requireTarget(*gl.context, request);
+  const gl::ScopedStage timed(timers_, stage_.finish);
+  if (strength <= 0.0) return guarded.touched();
+  guarded.drawInto(request.target.framebuffer);
+  if (request.target.color_texture == 0) guarded.readFrom(request.target.framebuffer);
+  gl.glow->draw(rainDraw(request), strength);
+  gl::throwOnError(gl.context->gl, "draw_finish");
   return guarded.touched();
 }
 

@@ -7,6 +7,7 @@
 #include "frame.h"
 #include "gl/state_guard.h"
 #include "rain/beyond_gl.h"
+#include "surroundings/glow_gl.h"
 #include "surroundings/splashes_gl.h"
 
 namespace rg {
@@ -32,6 +33,7 @@ struct Frame::Gl {
   std::unique_ptr<rain::BeyondRenderer> beyond;
   std::unique_ptr<surroundings::SplashRenderer> splashes;
   std::unique_ptr<surroundings::WetnessRenderer> wetness;
+  std::unique_ptr<surroundings::GlowRenderer> glow;
   uint32_t pattern_version = 0;
   std::shared_ptr<glass::FilmPrograms> film_programs;
   std::unique_ptr<glass::GlassLook> look;

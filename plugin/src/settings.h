@@ -18,6 +18,7 @@ struct Settings {
   double splashes_gain = 3.0;
   double splashes_reach_m = 20.0;
   double wetness_strength = 0.0;
+  double glow_strength = 0.0;
   double glass_brightness = 1.0;
   double glass_blur = 1.0;
   double glass_internal_reflections = 3.0;
@@ -81,6 +82,10 @@ inline constexpr SettingInfo kSettings[] = {
      "how wet rain makes what the host has drawn look, darker and mirroring; 0 = not at all: for hosts that "
      "draw wet surfaces themselves",
      0.0, 1.0, &Settings::wetness_strength},
+    {"glow.strength", "1", "glow",
+     "how much of the picture's light draw_finish spreads as the driver's eye does; 1 = as that of a driver of "
+     "40, 0 = none: for hosts that draw a glow themselves",
+     0.0, 4.0, &Settings::glow_strength},
     {"glass.brightness", "1", "glass", "of what is seen through water", 0.0, 2.0,
      &Settings::glass_brightness},
     {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0,

@@ -45,7 +45,11 @@ const Call kCalls[] = {
        return s.draw(s.api.draw_world, t);
      }},
     {"draw_glass", [](SmallScene& s, const rg_target& t) { return s.draw(s.api.draw_glass, t); }},
-    {"draw_finish", [](SmallScene& s, const rg_target& t) { return s.draw(s.api.draw_finish, t); }},
+    {"draw_finish",
+     [](SmallScene& s, const rg_target& t) {
+       s.expect(s.api.set_parameter(s.instance, "glow.strength", 1.0));
+       return s.draw(s.api.draw_finish, t);
+     }},
     {"get_pane_stats",
      [](SmallScene& s, const rg_target&) {
        rg_pane_stats stats{};

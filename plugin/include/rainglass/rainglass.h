@@ -16,7 +16,7 @@
  *     for each view:
  *       api->draw_world      GL thread    rain into your colour + depth: splashes, drops, and the veil of rain beyond
  *       api->draw_glass      GL thread    the panes, with the world behind them
- *       api->draw_finish     GL thread    whole-picture effects
+ *       api->draw_finish     GL thread    the whole picture's glow
  *   api->detach_gl                                           GL thread, context current
  *   api->destroy                                             any thread
  *
@@ -585,7 +585,10 @@ typedef struct rg_api {
    * drawn layer by layer, each tested as a whole at its middle. [thread: GL] */
   rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);
   rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);  /* [thread: GL] */
-  rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw); /* [thread: GL] */
+  /* The glow about all that is bright, lamps above all, as the driver's eye would see it were the screen as
+   * bright as they, if you ask for it (parameter glow.strength; call it once a picture, last, before your tone
+   * curve). Only in RG_LINEAR_HDR: in others nothing is drawn. [thread: GL] */
+  rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw);
 
   /* Time. [thread: as update] */
   rg_result (*reset)(rg_instance* instance); /* as after create: clock, rain, water; objects stay */

@@ -3,35 +3,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <list>
 #include <optional>
 
-#include "gl/objects.h"
+#include "gl/canvases.h"
 #include "gl/program.h"
 #include "glass/look_gl.h"
 
 namespace rg::glass {
-
-// A texture of half floats with its framebuffer.
-struct Canvas {
-  gl::Texture2D texture;
-  gl::Framebuffer framebuffer;
-};
-
-// Canvases by size, so that views and panes of different sizes that take turns do not make them anew each
-// time.
-class Canvases {
- public:
-  Canvases(const GladGLContext& gl, bool mipmaps) : gl_(&gl), mipmaps_(mipmaps) {}
-  Canvas& ofSize(int width, int height);
-  void forget();
-
- private:
-  static constexpr size_t kMost = 8;
-  const GladGLContext* gl_;
-  bool mipmaps_;
-  std::list<Canvas> canvases_;  // the one used last in front
-};
 
 class LookPicture {
  public:
@@ -49,7 +27,7 @@ class LookPicture {
 
   const GladGLContext* gl_;
   gl::Framebuffer source_;  // reads the target's colour texture
-  Canvases canvases_;
+  gl::Canvases canvases_;
   gl::Framebuffer level_;
   gl::VertexArray no_layout_;
   std::optional<gl::Program> halve_;  // made when first wanted

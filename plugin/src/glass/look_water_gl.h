@@ -38,7 +38,7 @@ class LookWater {
   gl::VertexArray no_layout_;
   gl::Sampler exact_, smooth_;
   gl::Texture2D no_film_, no_beads_;  // a dry texel
-  Canvases films_, bead_maps_;
+  gl::Canvases films_, bead_maps_;
   gl::Framebuffer both_;
   gl::Buffer cells_, tiles_, drawn_, commands_;
   uint32_t film_ = 0, beads_ = 0;

@@ -1,0 +1,161 @@
+#include "surroundings/glow_gl.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "gl/canvases.h"
+#include "gl/program.h"
+#include "surroundings/glare.h"
+
+namespace rg::surroundings {
+namespace {
+
+constexpr int kMostLevels = 10;  // texels of 1024 px
+
+// Sides of the half picture that halve evenly down to the last level, so that no pixel's light is lost there.
+int padded(int side_px, int levels) {
+  const int unit = 1 << (levels - 1);
+  return ((side_px + 1) / 2 + unit - 1) / unit * unit;
+}
+
+// Levels whose texels are a half of the picture or less.
+int levelsFor(const glm::ivec4& viewport_px) {
+  int levels = 0;
+  while (levels < kMostLevels && std::min(viewport_px.z, viewport_px.w) >> (levels + 2) > 0) ++levels;
+  return levels;
+}
+
+struct GlowPrograms {
+  explicit GlowPrograms(const GladGLContext& gl)
+      : gather(gl, {"glass/look_screen.vert", "surroundings/glow_gather.frag"}),
+        spread(gl, {"glass/look_screen.vert", "surroundings/glow_spread.frag"}),
+        lay(gl, {"glass/look_screen.vert", "surroundings/glow_lay.frag"}) {}
+  gl::Program gather, spread, lay;
+};
+
+}  // namespace
+
+struct GlowRenderer::Objects {
+  explicit Objects(const gl::Context& context)
+      : gl(context.gl),
+        copies(gl, false),
+        pyramids(gl, true),
+        level(gl),
+        no_vertices(gl),
+        nearest(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
+        linear(gl, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_CLAMP_TO_EDGE),
+        canvas(gl) {}
+
+  const GladGLContext& gl;
+  std::optional<GlowPrograms> programs;  // made when first wanted
+  gl::Canvases copies, pyramids;
+  gl::Framebuffer level;
+  gl::VertexArray no_vertices;
+  gl::Sampler nearest, linear;
+  rain::Canvas canvas;
+
+  void gather(const rain::RainDraw& draw, gl::Texture2D& pyramid);
+  void spread(const gl::Texture2D& pyramid, std::span<const float> shares);
+  void drawTo(const gl::Texture2D& pyramid, int at_level);
+};
+
+void GlowRenderer::Objects::drawTo(const gl::Texture2D& pyramid, int at_level) {
+  level.attachColor(0, pyramid.name(), at_level);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, level.name());
+  gl.ViewportIndexedf(0, 0.0f, 0.0f, static_cast<float>(std::max(pyramid.width() >> at_level, 1)),
+                      static_cast<float>(std::max(pyramid.height() >> at_level, 1)));
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// The picture, half as large, and its ever smaller levels.
+void GlowRenderer::Objects::gather(const rain::RainDraw& draw, gl::Texture2D& pyramid) {
+  const glm::ivec4& v = draw.viewport_px;
+  GLuint picture = draw.target.color_texture;
+  glm::ivec2 corner(v);
+  if (picture == 0) {
+    const gl::Canvas& copy = copies.ofSize(v.z, v.w);
+    gl.BlitNamedFramebuffer(draw.target.framebuffer, copy.framebuffer.name(), v.x, v.y, v.x + v.z, v.y + v.w,
+                            0, 0, v.z, v.w, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    picture = copy.texture.name();
+    corner = {0, 0};
+  }
+  programs->gather.set(0, glm::ivec4(corner, corner + glm::ivec2(v.z, v.w) - 1));
+  programs->gather.use();
+  gl.BindTextureUnit(3, picture);
+  gl.BindSampler(3, nearest.name());
+  gl.Disablei(GL_BLEND, 0);
+  drawTo(pyramid, 0);
+  pyramid.generateMipmaps();
+}
+
+// Each level becomes its share of the light with the coarser ones' over it.
+void GlowRenderer::Objects::spread(const gl::Texture2D& pyramid, std::span<const float> shares) {
+  gl.Enablei(GL_BLEND, 0);
+  gl.BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
+  gl.BlendFuncSeparatei(0, GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
+  gl.BindTextureUnit(3, pyramid.name());
+  gl.BindSampler(3, linear.name());
+  programs->spread.use();
+  float coarser = shares.back();  // nothing has weighted the last level yet
+  for (int k = static_cast<int>(shares.size()) - 2; k >= 0; --k) {
+    gl.TextureParameteri(pyramid.name(), GL_TEXTURE_BASE_LEVEL, k + 1);  // no level is read while it is
+    gl.TextureParameteri(pyramid.name(), GL_TEXTURE_MAX_LEVEL, k + 1);   // written
+    programs->spread.set(0, glm::vec2(coarser, shares[static_cast<size_t>(k)]));
+    drawTo(pyramid, k);
+    coarser = 1.0f;
+  }
+  gl.TextureParameteri(pyramid.name(), GL_TEXTURE_BASE_LEVEL, 0);
+  gl.TextureParameteri(pyramid.name(), GL_TEXTURE_MAX_LEVEL, 1000);  // GL's own
+}
+
+GlowRenderer::GlowRenderer(const gl::Context& context) : objects_(std::make_unique<Objects>(context)) {}
+GlowRenderer::~GlowRenderer() = default;
+
+void GlowRenderer::draw(const rain::RainDraw& draw, double strength) {
+  Objects& o = *objects_;
+  const glm::ivec4& v = draw.viewport_px;
+  const int levels = levelsFor(v);
+  if (!(strength > 0.0) || draw.target.srgb || levels < 2) return;
+  if (!o.programs) o.programs.emplace(o.gl);
+  std::vector<float> shares = glareShares(0.5 * draw.view->clipFromEye[1][1] * v.w, levels);
+  float all = 0.0f;
+  for (float& share : shares) all += share *= static_cast<float>(strength);
+  if (all > 1.0f) {  // more than all of it cannot go astray
+    for (float& share : shares) share /= all;
+    all = 1.0f;
+  }
+  gl::Texture2D& pyramid = o.pyramids.ofSize(padded(v.z, levels), padded(v.w, levels)).texture;
+  o.gl.Disablei(GL_SCISSOR_TEST, 0);
+  o.gl.Disable(GL_DEPTH_TEST);
+  o.gl.Disable(GL_CULL_FACE);
+  o.gl.BindVertexArray(o.no_vertices.name());
+  o.gather(draw, pyramid);
+  o.spread(pyramid, shares);
+
+  rain::RainDraw plain = draw;
+  plain.target.depth_texture = 0;
+  o.canvas.begin(plain);
+  o.gl.Disable(GL_DEPTH_TEST);
+  o.programs->lay.set(0, glm::vec4(v.x, v.y, 2 * pyramid.width(), 2 * pyramid.height()));
+  o.programs->lay.set(1, all);
+  o.programs->lay.use();
+  o.gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void GlowRenderer::forget() {
+  Objects& o = *objects_;
+  if (o.programs) {
+    o.programs->gather.forget();
+    o.programs->spread.forget();
+    o.programs->lay.forget();
+  }
+  o.copies.forget();
+  o.pyramids.forget();
+  o.level.forget();
+  o.no_vertices.forget();
+  o.nearest.forget();
+  o.linear.forget();
+  o.canvas.forget();
+}
+
+}  // namespace rg::surroundings
