@@ -271,7 +271,9 @@ Eye Simulation::eyeOf(const CarState& car) const {
 
 rg_view Simulation::viewOf(const CarState& car) const {
   const Eye eye = eyeOf(car);
-  return pluginView(plugin_.api(), eye.view, size_px_, eye.velocity_mps, eye.inside ? kCarId : 0);
+  rg_view view = pluginView(plugin_.api(), eye.view, size_px_, eye.velocity_mps, eye.inside ? kCarId : 0);
+  view.pupil_m = 1e-3 * scenario_.pupil_mm;
+  return view;
 }
 
 }  // namespace host

@@ -154,6 +154,12 @@ void main() {
 #endif
 #ifdef BEADS
   float far = 1.0 - nearness(behind_m, dot(view, normal));
+#ifdef APART
+  float covered = 1.0 - (1.0 - bead.hazy * far) * (1.0 - bead.cover * far);
+  vec3 shown = mix(blurred * (bead.hazy * far), throughBead(bead, within, normal, cap), bead.cover * far) / max(covered, 1e-4);
+  color = vec4(encode(frame.brightness * shown) * covered, covered);
+  return;
+#endif
   light = mix(light, blurred, bead.hazy * far);
   light = mix(light, throughBead(bead, within, normal, cap), bead.cover * far);
 #endif

@@ -37,6 +37,7 @@ layout(std140, binding = 0) uniform Frame {
   float ridge_tan_contact;  // tangent of the angle in which its foot meets the glass
   float bead_mm3_per_unit;  // the cube of a bead's base radius, for a unit of the film's volume
   float bead_sine;          // of the angle in which its cap meets the glass
+  float pupil_m;            // how wide the circle is on the glass that a sharp point far away is seen through
   LookBlade blades[8];      // kMaxGlassWipers
 } frame;
 #endif

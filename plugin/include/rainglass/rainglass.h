@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 5u
+#define RG_ABI_MINOR 6u
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -188,6 +188,10 @@ typedef struct rg_view {
   uint32_t vehicle;           /* the vehicle the eye is inside of, 0 = outside of all */
   uint32_t discontinuity;     /* 1: camera cut: this view shows something else than before */
   double eye_velocity_mps[3]; /* of the eye, world axes */
+  /* Since minor 6. Width of the eye's or the camera's pupil, 0 .. 0.05 m, focused on what is far: drops on
+   * glass that it looks through, that wide or less, dissolve. Wants the target's depth_texture. Default 0:
+   * all is sharp */
+  double pupil_m;
 } rg_view;
 
 /* Fixed. A wiper's angle at a time. Between knots it is linear, so give one at every reversal. */
@@ -584,10 +588,10 @@ typedef struct rg_api {
    * air's visibility alone. Without a depth_texture (and color_texture) nothing is made wet, and the veil is
    * drawn layer by layer, each tested as a whole at its middle. [thread: GL] */
   rg_result (*draw_world)(rg_instance* instance, rg_draw* draw);
-  rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw);  /* [thread: GL] */
+  rg_result (*draw_glass)(rg_instance* instance, rg_draw* draw); /* [thread: GL] */
   /* The glow about all that is bright, lamps above all, as the driver's eye would see it were the screen as
-   * bright as they, if you ask for it (parameter glow.strength; call it once a picture, last, before your tone
-   * curve). Only in RG_LINEAR_HDR: in others nothing is drawn. [thread: GL] */
+   * bright as they, if you ask for it (parameter glow.strength; call it once a picture, last, before your
+   * tone curve). Only in RG_LINEAR_HDR: in others nothing is drawn. [thread: GL] */
   rg_result (*draw_finish)(rg_instance* instance, rg_draw* draw);
 
   /* Time. [thread: as update] */

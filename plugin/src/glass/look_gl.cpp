@@ -52,11 +52,13 @@ struct FrameBlock {
   int32_t blade_count;
   float ridge_tan_contact;
   float bead_mm3_per_unit, bead_sine;
+  float pupil_m;
+  float unused[3];
   struct Blade {
     glm::vec4 middle_length, along_first, ahead;
   } blades[shared::kMaxGlassWipers];
 };
-static_assert(sizeof(FrameBlock) == 416 + 48 * shared::kMaxGlassWipers, "std140 lays it out so");
+static_assert(sizeof(FrameBlock) == 432 + 48 * shared::kMaxGlassWipers, "std140 lays it out so");
 
 glm::mat4 rotationOf(const glm::dmat4& m) { return glm::mat4(glm::dmat4(glm::dmat3(m))); }
 
@@ -112,6 +114,8 @@ struct GlassLook::Parts {
         no_film(gl, GL_RGBA16F, 1, 1),
         water(gl, programs),
         picture(gl),
+        layers(gl, true),
+        layer(gl),
         capture(gl),
         lamps(gl),
         fog(gl) {
@@ -129,10 +133,12 @@ struct GlassLook::Parts {
   void bindLook(const LookLight& light, const LookTarget& target);
   void setState(const LookView& view, const LookTarget& target);
   void bindMesh(const LookPane& pane, uint32_t indices);
-  void drawWater(const LookPane& pane);
-  void drawPieces(const LookPane& pane);
+  void drawWater(const LookPane& pane, uint32_t parts);
+  void drawInside(const LookPane& pane, uint32_t parts);
+  void drawPieces(const LookPane& pane, uint32_t parts);
   void placeDrops(const LookPane& pane);
   void drawDrops();
+  void drawUnsharp(const LookPane& pane, const LookView& view, const LookTarget& target);
   void drawFog(const LookPane& pane);
   void forget();
   uint32_t environmentOf(const LookLight& light) const {
@@ -149,6 +155,8 @@ struct GlassLook::Parts {
   LookWater water;
   uint32_t variant = kPlain;  // of the pane being drawn and the light it is drawn in
   LookPicture picture;
+  gl::Canvases layers;  // of drops out of focus
+  gl::Framebuffer layer;
   LookCapture capture;
   LookLamps lamps;
   FogPainter fog;
@@ -191,6 +199,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.bead_mm3_per_unit =
       1e9f * pane.film_unit_m3 / static_cast<float>(capShape(static_cast<double>(pane.bead_contact_rad)));
   block.mirror = pane.mirror;
+  block.pupil_m = static_cast<float>(view.pupil_m);
   block.bead_sine = std::sin(std::min(pane.bead_contact_rad, glm::half_pi<float>()));
   block.ridge_tan_contact = std::tan(std::min(pane.ridge_contact_rad, kSteepestRidge_rad));
   for (const LookBlade& blade : pane.blades) {
@@ -239,41 +248,44 @@ void GlassLook::Parts::setState(const LookView& view, const LookTarget& target) 
   gl.BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // the target's alpha stays
 }
 
-// Film, beads and ridges.
-void GlassLook::Parts::drawWater(const LookPane& pane) {
+// Film, beads and ridges, those of `parts`.
+void GlassLook::Parts::drawWater(const LookPane& pane, uint32_t parts) {
   gl.Disablei(GL_BLEND, 0);
   gl.BindTextureUnit(kFirst, water.film());
   gl.BindTextureUnit(kSecond, water.beads());
   for (const GLuint unit : {kFirst, kSecond}) gl.BindSampler(unit, smooth.name());
   gl.BindSampler(kPicture, stepped.name());  // one mip level: a quarter of the pass cheaper
-  const uint32_t all = variant | kFilm | kBeads | (pane.blades.empty() ? kPlain : kRidges);
   if (!pane.blades.empty()) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, pane.ridge_buffer);
   // Front faces are the outer side; the eye sees one pane from inside and, at its far end, another from
   // outside.
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
-  if (pane.mirror > 0.0f) {
-    // Its silver lets nothing through.
-  } else if (pane.piece_buffer != 0) {
-    drawPieces(pane);
-  } else {
-    bindMesh(pane, pane.index_buffer);
-    programs.use(LookStage::pane, all | kInside);
-    gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
-  }
+  if (pane.mirror <= 0.0f) drawInside(pane, parts);  // a mirror's silver lets nothing through
   gl.CullFace(GL_BACK);
   bindMesh(pane, pane.index_buffer);
-  programs.use(LookStage::pane, all & ~kCoarse);
-  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  const uint32_t ridges = pane.blades.empty() ? kPlain : kRidges;
+  if (parts & kFilm) {
+    programs.use(LookStage::pane, (variant & ~kCoarse) | kFilm | kBeads | ridges);
+    gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  }
   gl.Disable(GL_CULL_FACE);
 }
 
+void GlassLook::Parts::drawInside(const LookPane& pane, uint32_t parts) {
+  if (pane.piece_buffer != 0) return drawPieces(pane, parts);
+  bindMesh(pane, pane.index_buffer);
+  const uint32_t all = kFilm | kBeads | (pane.blades.empty() ? kPlain : kRidges);
+  programs.use(LookStage::pane, variant | kInside | (all & parts) | (parts & kApart));
+  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+}
+
 // Those that show water, each kind by a program that does no more than it needs.
-void GlassLook::Parts::drawPieces(const LookPane& pane) {
+void GlassLook::Parts::drawPieces(const LookPane& pane, uint32_t parts) {
   bindMesh(pane, water.indices());
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, water.commands());
-  const auto draw = [&](uint32_t kind, uint32_t water_variant) {
-    programs.use(LookStage::pane, variant | kInside | water_variant);
+  const auto draw = [&](uint32_t kind, uint32_t all) {
+    if ((all & parts) == 0) return;
+    programs.use(LookStage::pane, variant | kInside | (all & parts) | (parts & kApart));
     const auto at = static_cast<uintptr_t>(shared::listOf(kind)) * sizeof(GLuint) * 5;
     gl.DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(at));
   };
@@ -281,7 +293,6 @@ void GlassLook::Parts::drawPieces(const LookPane& pane) {
   draw(shared::kBeads, kBeads);
   draw(shared::kFilm | shared::kBeads, kFilm | kBeads);
   if (!pane.blades.empty()) draw(shared::kRidge, kFilm | kBeads | kRidges);
-  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's lists do not overtake these
 }
 
 // Made ready to be drawn, and bound.
@@ -328,7 +339,33 @@ void GlassLook::Parts::drawDrops() {
   gl.DrawArraysIndirect(GL_TRIANGLES, nullptr);
   programs.use(LookStage::drops, variant);
   gl.DrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(kArraysCommandBytes));
-  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's lists do not overtake these
+}
+
+// Beads and drops apart from the picture, whose depth hides them as it does on the glass, and blurred over
+// it. The film needs no blur: it bends what is far a little, as sharp as it was.
+void GlassLook::Parts::drawUnsharp(const LookPane& pane, const LookView& view, const LookTarget& target) {
+  gl::Texture2D& apart = layers.ofSize(target.width_px, target.height_px).texture;
+  const float nothing[4] = {};
+  layer.attachColor(0, apart.name());
+  layer.attachDepth(target.depth_texture);
+  gl.ClearNamedFramebufferfv(layer.name(), GL_COLOR, 0, nothing);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, layer.name());
+  if (pane.beads != 0) drawWater(pane, kBeads | kApart);
+  gl.BlendFunci(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  if (pane.drop_count > 0) {
+    placeDrops(pane);
+    drawDrops();
+  }
+  layer.attachDepth(0);
+  apart.generateMipmaps();
+
+  setState(view, target);
+  gl.Enablei(GL_BLEND, 0);
+  bindMesh(pane, pane.index_buffer);
+  gl.BindTextureUnit(kFirst, apart.name());
+  gl.BindSampler(kFirst, stepped.name());
+  programs.use(LookStage::unsharp);
+  gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
 }
 
 // Between the eye and the water, of which it shows no more than of the rest: over the picture with both.
@@ -355,6 +392,8 @@ void GlassLook::Parts::forget() {
   no_film.forget();
   water.forget();
   picture.forget();
+  layers.forget();
+  layer.forget();
   capture.forget();
   lamps.forget();
   fog.forget();
@@ -385,11 +424,15 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     p.setState(view, target);
     p.bindLook(light, target);
     if (with_lamps) p.lamps.hide();
-    p.drawWater(pane);
-    if (pane.drop_count > 0) {
+    const bool unsharp = view.pupil_m > 0.0 && target.depth_texture != 0 && pane.mirror <= 0.0f;
+    p.drawWater(pane, unsharp ? kFilm | kRidges : kFilm | kBeads | kRidges);
+    if (unsharp) {
+      p.drawUnsharp(pane, view, target);
+    } else if (pane.drop_count > 0) {
       p.placeDrops(pane);
       p.drawDrops();
     }
+    p.gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next pane's lists do not overtake these
     if (!pane.fog.covered.empty()) {
       p.picture.fetch(view.viewport_px, target, with_lamps);
       drawn = {seen};

@@ -24,6 +24,7 @@ struct LookView {
   glm::ivec4 viewport_px{0};  // x, y, width, height in the target
   bool clip_zero_to_one = false;
   bool reversed_depth = false;
+  double pupil_m = 0.0;  // how wide it is that looks at what is far; drops on the glass are blurred by as much
 };
 
 // Where it is drawn. `color_texture` is what the framebuffer's colour 0 shows, or 0: then the picture is

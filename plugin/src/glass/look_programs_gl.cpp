@@ -16,7 +16,7 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 12> kSources{
+constexpr std::array<Source, 13> kSources{
     {{"glass/look_cells.comp", "", kRidges},
      {"glass/look_kinds.comp", "", kPlain},
      {"glass/look_sort.comp", "", kPlain},
@@ -24,18 +24,19 @@ constexpr std::array<Source, 12> kSources{
      {"glass/look_water.vert", "glass/look_water.frag", kEverywhere},
      {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
      {"glass/look_pane.vert", "glass/look_pane.frag",
-      kInside | kCoarse | kFilm | kBeads | kRidges | kMirror | kLit},
+      kInside | kCoarse | kFilm | kBeads | kRidges | kMirror | kApart | kLit},
      {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
      {"glass/look_place.comp", "", kMirror | kLamps | kLit},
      {"glass/look_pick.comp", "", kPlain},
      {"glass/look_drop.vert", "glass/look_drop.frag", kMirror | kLamps | kLit},
-     {"glass/look_small.vert", "glass/look_small.frag", kPlain}}};
+     {"glass/look_small.vert", "glass/look_small.frag", kPlain},
+     {"glass/look_pane.vert", "glass/look_unsharp.frag", kPlain}}};
 
 struct Name {
   LookVariant variant;
   const char* define;
 };
-constexpr std::array<Name, 10> kNames{{{kInside, "INSIDE"},
+constexpr std::array<Name, 11> kNames{{{kInside, "INSIDE"},
                                        {kCoarse, "COARSE"},
                                        {kEnvironment, "ENVIRONMENT"},
                                        {kLamps, "LAMPS"},
@@ -44,7 +45,8 @@ constexpr std::array<Name, 10> kNames{{{kInside, "INSIDE"},
                                        {kBeads, "BEADS"},
                                        {kMirror, "MIRROR"},
                                        {kRidges, "RIDGES"},
-                                       {kEverywhere, "EVERYWHERE"}}};
+                                       {kEverywhere, "EVERYWHERE"},
+                                       {kApart, "APART"}}};
 
 gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant) {
   std::vector<std::string> defines;

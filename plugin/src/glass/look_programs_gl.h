@@ -24,22 +24,24 @@ enum class LookStage : uint8_t {
   place,
   pick,
   drops,
-  small_drops
+  small_drops,
+  unsharp
 };
 
 // Any of them together; those that a stage does not ask for make no difference to it.
 enum LookVariant : uint32_t {
   kPlain = 0,
-  kInside = 1,       // the eye is on the cabin's side of the glass
-  kCoarse = 2,       // many pixels to a texel of the film
-  kEnvironment = 4,  // there is a cube of what is all around
-  kLamps = 8,        // lamps shine
-  kEncoded = 16,     // the target holds sRGB
-  kFilm = 32,        // there is film
-  kBeads = 64,       // there are beads
-  kMirror = 128,     // a mirror, seen from its wet side
-  kRidges = 256,     // blades push ridges
-  kEverywhere = 512  // water may be anywhere: nobody has sorted the cells
+  kInside = 1,        // the eye is on the cabin's side of the glass
+  kCoarse = 2,        // many pixels to a texel of the film
+  kEnvironment = 4,   // there is a cube of what is all around
+  kLamps = 8,         // lamps shine
+  kEncoded = 16,      // the target holds sRGB
+  kFilm = 32,         // there is film
+  kBeads = 64,        // there are beads
+  kMirror = 128,      // a mirror, seen from its wet side
+  kRidges = 256,      // blades push ridges
+  kEverywhere = 512,  // water may be anywhere: nobody has sorted the cells
+  kApart = 1024       // beads alone, by what they cover, to be blurred before they lie over the picture
 };
 
 class LookPrograms {
