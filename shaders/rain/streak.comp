@@ -135,6 +135,20 @@ bool fitsLine(Shape shape, vec2 kept) {
   return inside && kept.x < kept.y && 2.0 * shape.side_px <= widest_line_px * max(size.x, size.y);
 }
 
+// The part of its way, of that which lies in the picture, between whose ends a line is drawn. A line covers those rows of pixels (columns, where it
+// is the more level) whose middles it passes before its end, so that each end may as well lie just before the next middle: there software GL's tests
+// of how an end lies in its pixel always come out alike, which a processor foresees. An end that would leave the picture stays.
+vec2 lineEnds(vec2 from_px, vec2 to_px, vec2 kept) {
+  const float kBefore_px = 1.0 / 64.0;
+  vec2 way = to_px - from_px, middle_px = 0.5 * look.viewport.zw;
+  vec2 from_way = abs(way.x) < abs(way.y) ? vec2(from_px.y + middle_px.y, way.y) : vec2(from_px.x + middle_px.x, way.x);
+  // Along the way: whole numbers are pixels' edges.
+  float begin_px = from_way.y < 0.0 ? -from_way.x : from_way.x, length_px = abs(from_way.y);
+  vec2 before = (ceil(begin_px + kept * length_px - 0.5) + (0.5 - kBefore_px) - begin_px) / length_px;
+  bvec2 leaves = bvec2(any(greaterThan(abs(from_px + way * before.x), middle_px)), any(greaterThan(abs(from_px + way * before.y), middle_px)));
+  return mix(before, kept, leaves);
+}
+
 // Of a line only the part in the picture: where an end lies outside, software GL takes all of a draw call a slower way.
 void put(uint first, uint slot, Seen s, Shape shape, bool as_line, vec2 kept) {
   vec2 depths_m = s.depths_times.xy, times = s.depths_times.zw, clip = 2.0 / look.viewport.zw;
@@ -151,6 +165,7 @@ void put(uint first, uint slot, Seen s, Shape shape, bool as_line, vec2 kept) {
   vec2 side = vec2(-shape.along.y, shape.along.x) * shape.side_px;
   vec4 places[4];
   if (as_line) {
+    kept = lineEnds(from_px, to_px, kept);
     places[0] = vec4(mix(from_px, to_px, kept.x) * clip, mix(stored.x, stored.y, kept.x), 1.0);
     places[1] = vec4(mix(from_px, to_px, kept.y) * clip, mix(stored.x, stored.y, kept.y), 1.0);
   } else {

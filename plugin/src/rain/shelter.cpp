@@ -237,11 +237,11 @@ void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& 
     for (uint32_t k = 0; k < (past ? path.count : 1u) && !meets; ++k) {
       const PathPiece& piece = path.pieces[k];
       double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
+      const double earliest = now_s + std::max(piece.from_s, -BodyPath::kBehind_s);
       for (uint32_t age = 0; age < body.path.pieces() && !meets; ++age) {
         const BodyPath::Piece& motion = body.path.piece(age);
-        if (until <= now_s - BodyPath::kBehind_s) break;
-        const double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s}),
-                     to = until;
+        if (until <= earliest) break;
+        const double from = std::max(earliest, motion.from_s), to = until;
         until = std::min(until, motion.from_s);
         if (from >= to) continue;
         const dvec3 v = piece.velocity_mps - motion.pose.velocity_mps;
@@ -341,11 +341,11 @@ double Shelter::entryDuring(const Body& body, const BodyPath::Piece& motion, con
 double Shelter::entryOfBody(const Body& body, const dvec3& place, const PathPiece& piece, double now_s) {
   double first = kNever_s;
   double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
+  const double earliest = now_s + std::max(piece.from_s, -BodyPath::kBehind_s);
   for (uint32_t age = 0; age < body.path.pieces(); ++age) {
     const BodyPath::Piece& motion = body.path.piece(age);
-    if (until <= now_s - BodyPath::kBehind_s) break;
-    const double from = std::max({now_s + piece.from_s, motion.from_s, now_s - BodyPath::kBehind_s}),
-                 to = until;
+    if (until <= earliest) break;
+    const double from = std::max(earliest, motion.from_s), to = until;
     until = std::min(until, motion.from_s);
     if (from >= to) continue;
     const dvec3 from_m = place + piece.from_m + piece.velocity_mps * (from - now_s - piece.from_s);
