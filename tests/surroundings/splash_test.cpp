@@ -116,45 +116,82 @@ TEST(Splashes, stayWhereTheyAreWhenTheOriginMoves) {
     ASSERT_LT(glm::distance(before.jobs[i].corner, after.jobs[i].corner), 1e-4f);
 }
 
-// Fewer are drawn far off, and each for more: at every distance all together count as often as there are.
+// Fewer are drawn far off, of small ones fewer still, and each for more: at every distance all of a size
+// together count as often as there are.
 TEST(Splashes, countAsOftenAsThereAreAtAllDistances) {
   for (const float distance_m : {0.5f, 3.0f, 4.2f, 5.0f, 9.0f, 20.0f, 40.0f}) {
-    constexpr int kRanks = 20000;
-    double sum = 0.0;
-    for (int i = 0; i < kRanks; ++i) {
-      const float rank = (static_cast<float>(i) + 0.5f) / kRanks;
-      const float times = shared::splashTimes(rank, distance_m);
-      sum += static_cast<double>(times);
-      // No level's job is left out before its last rank is.
-      for (uint32_t level = 0; level < shared::kSplashLevels; ++level) {
-        const glm::vec2 ranks = shared::splashRanks(level);
-        if (rank > ranks.x && rank < ranks.y && distance_m > shared::splashReach_m(level)) {
-          EXPECT_EQ(times, 0.0f);
+    for (const float diameter_m : {0.001f, 0.0015f, 0.002f, 0.004f}) {
+      constexpr int kRanks = 100'000;
+      double sum = 0.0;
+      for (int i = 0; i < kRanks; ++i) {
+        const float rank = (static_cast<float>(i) + 0.5f) / kRanks;
+        const float times = shared::splashTimes(rank, distance_m, diameter_m);
+        sum += static_cast<double>(times);
+        // No level's job is left out before its last rank is.
+        for (uint32_t level = 0; level < shared::kSplashLevels; ++level) {
+          const glm::vec2 ranks = shared::splashRanks(level);
+          if (rank > ranks.x && rank < ranks.y && distance_m > shared::splashReach_m(level)) {
+            EXPECT_EQ(times, 0.0f);
+          }
         }
       }
+      EXPECT_NEAR(sum / kRanks, 1.0, 5e-3) << distance_m << " m, " << diameter_m;
     }
-    EXPECT_NEAR(sum / kRanks, 1.0, 2e-3) << distance_m;
   }
 }
 
-// Of any size and at any place on the grid of pixels, and of a picture that leans.
+// Of any size and age and at any place on the grid of pixels, seen from any elevation.
 TEST(Splashes, coverAsMuchAtEverySize) {
-  for (const float radius : {0.05f, 0.4f, 1.3f, 6.0f}) {
+  for (const float px_per_m : {20.0f, 200.0f, 800.0f, 2500.0f}) {
     for (const float sine : {0.0f, 0.1f, 0.7f, 1.0f}) {
-      const float height = 1.4f * radius * (1.0f - sine), rim = 0.12f * radius;
-      for (const glm::vec2 offset : {glm::vec2(0.0f), glm::vec2(0.31f, 0.77f), glm::vec2(0.5f, 0.12f)}) {
-        double sum = 0.0;
-        for (int y = -10; y < 22; ++y) {
-          for (int x = -10; x <= 10; ++x)
-            sum += static_cast<double>(
-                shared::splashCover(glm::vec2(x, y) + offset, 0.5f, radius, height, rim, sine, 1.0f));
+      for (const float age_s : {0.005f, 0.015f, 0.04f}) {
+        const shared::SplashShape shape = shared::splashShape(0.002f, age_s);
+        const shared::SplashDrawn drawn = shared::splashDrawn(shape, px_per_m, sine, 2.0f);
+        for (const glm::vec2 offset : {glm::vec2(0.0f), glm::vec2(0.31f, 0.77f), glm::vec2(0.5f, 0.12f)}) {
+          double sum = 0.0;
+          for (int y = -26; y < 40; ++y) {
+            for (int x = -26; x <= 26; ++x)
+              sum += static_cast<double>(
+                  shared::splashCover(glm::vec2(x, y) + offset, 0.5f, drawn, glm::vec2(0.8f, 0.6f)));
+          }
+          // Droplets about the ring add up to nothing, but for how pixels sample them.
+          const auto expected = static_cast<double>(shared::splashCoverSum(drawn));
+          EXPECT_NEAR(sum, expected, 0.03 * expected) << px_per_m << " px/m, sine " << sine << ", " << age_s;
         }
-        // Beads on the rim add up to nothing round the circle, but for how pixels sample them.
-        const auto expected = static_cast<double>(shared::splashCoverSum(radius, height, rim));
-        EXPECT_NEAR(sum, expected, 0.03 * expected) << radius << " px, sine " << sine;
       }
     }
   }
+}
+
+// What they cover in nature is what their wall and droplets do, whatever they are drawn like.
+TEST(Splashes, areDrawnAsTheyAre) {
+  const shared::SplashShape shape = shared::splashShape(0.003f, 0.012f);
+  const shared::SplashDrawn drawn = shared::splashDrawn(shape, 1000.0f, 0.6f, 1.0f);
+  const double wall_m2 =
+      2.0 * 3.14159265 * static_cast<double>(shape.radius_m * shape.wall_m * 0.8f * shape.wall);
+  EXPECT_NEAR(static_cast<double>(shared::splashCoverSum(drawn)),
+              1e6 * (wall_m2 + static_cast<double>(shape.droplets_m2)), 1e-3);
+  // The crown sinks back long before the last droplets are down, and they are when its life ends.
+  const float life_s = shared::splashLife_s(0.003f);
+  EXPECT_EQ(shared::splashShape(0.003f, 0.5f * life_s).wall_m, 0.0f);
+  EXPECT_GT(shared::splashShape(0.003f, 0.5f * life_s).droplets_m2, 0.0f);
+  EXPECT_NEAR(shared::splashShape(0.003f, life_s).droplets_m2, 0.0f, 1e-9f);
+}
+
+// Among things equally bright they are as bright; seen from the side they gather half their light from the
+// sky (0.94 of it through two faces), from above none but what they mirror, and as little where something
+// stands behind them that is as dark as the ground.
+TEST(Splashes, areAsBrightAsWhatIsAround) {
+  const vec3 dark(0.1f), sky(1.0f);
+  const auto light = [](const vec3& below, const vec3& above, double towards, double behind) {
+    return static_cast<double>(
+        shared::splashLight(below, above, static_cast<float>(towards), static_cast<float>(behind)).x);
+  };
+  EXPECT_NEAR(light(sky, sky, -0.4, 0.3), 1.0, 1e-6);
+  EXPECT_NEAR(light(dark, sky, 0.0, 0.0), 0.1 + 0.9 * 0.5, 1e-6);
+  EXPECT_NEAR(light(dark, sky, -1.0, 0.0), 0.1 + 0.9 * 0.03, 1e-6);
+  EXPECT_NEAR(light(dark, sky, -0.5, 0.866), 0.1 + 0.9 * 0.03, 1e-3);  // 30 degrees and 60 are 90
+  EXPECT_LT(light(dark, sky, -0.5, 0.5), 0.6 * light(dark, sky, -0.5, 0.0));
 }
 
 // Against steps of 5 mm up the line, each asked whether it lies in a box: boxes that stand and boxes that

@@ -10,7 +10,7 @@
 namespace rg::surroundings {
 namespace {
 
-using shared::kSplashGroup, shared::kSplashParts, shared::SplashCorner, shared::SplashJob;
+using shared::kSplashGroup, shared::SplashJob, shared::SplashPoint;
 
 constexpr GLint kJobCount = 0, kSplashCount = 1;  // the kernel's uniforms
 
@@ -30,16 +30,6 @@ struct Programs {
   gl::Program find, show;
 };
 
-// The two triangles of each of a group's rectangles. Both begin with the first corner, whose flat values
-// count.
-std::vector<uint32_t> rectangles() {
-  std::vector<uint32_t> indices;
-  for (uint32_t i = 0; i < kSplashParts; ++i) {
-    for (const uint32_t corner : {0u, 1u, 3u, 0u, 3u, 2u}) indices.push_back(4 * i + corner);
-  }
-  return indices;
-}
-
 }  // namespace
 
 struct SplashRenderer::Objects {
@@ -48,7 +38,7 @@ struct SplashRenderer::Objects {
 
   const GladGLContext& gl;
   Programs reading, testing;
-  gl::Buffer block, shelter, corners, jobs, drawn, commands;
+  gl::Buffer block, shelter, jobs, drawn, commands;
   gl::VertexArray vertices;
   rain::Canvas canvas;
   SplashPicture picture;
@@ -62,14 +52,12 @@ SplashRenderer::Objects::Objects(const gl::Context& context)
       testing(gl, false),
       block(gl, sizeof(shared::SplashRain)),
       shelter(gl, sizeof(shared::RainShelter)),
-      corners(gl, std::span<const uint32_t>(rectangles())),
       vertices(gl),
       canvas(gl) {
-  vertices.bindIndices(corners.name());
-  vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(SplashCorner, place));
-  vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(SplashCorner, a));
-  vertices.attribute(2, 0, 4, GL_FLOAT, offsetof(SplashCorner, b));
-  vertices.attribute(3, 0, 4, GL_FLOAT, offsetof(SplashCorner, c));
+  vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(SplashPoint, place));
+  vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(SplashPoint, a));
+  vertices.attribute(2, 0, 4, GL_FLOAT, offsetof(SplashPoint, b));
+  vertices.attribute(3, 0, 4, GL_FLOAT, offsetof(SplashPoint, c));
 }
 
 void SplashRenderer::Objects::makeRoom(uint32_t wanted) {
@@ -77,9 +65,9 @@ void SplashRenderer::Objects::makeRoom(uint32_t wanted) {
   if (bytes > jobs.bytes()) jobs = gl::Buffer(gl, bytes + bytes / 2);
   if (wanted <= groups) return;
   groups = wanted + wanted / 2;
-  drawn = gl::Buffer(gl, size_t{4} * kSplashParts * groups * sizeof(SplashCorner), 0);
-  commands = gl::Buffer(gl, groups * sizeof(shared::RainCommand), 0);
-  vertices.bindBuffer(0, drawn.name(), 0, sizeof(SplashCorner));
+  drawn = gl::Buffer(gl, size_t{kSplashGroup} * groups * sizeof(SplashPoint), 0);
+  commands = gl::Buffer(gl, groups * sizeof(shared::RainLineCommand), 0);
+  vertices.bindBuffer(0, drawn.name(), 0, sizeof(SplashPoint));
 }
 
 SplashRenderer::SplashRenderer(const gl::Context& context) : objects_(std::make_unique<Objects>(context)) {}
@@ -113,9 +101,8 @@ void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   programs.show.use();
   gl.BindVertexArray(o.vertices.name());
-  gl.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, o.commands.name());
-  gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(groups), 0);
+  gl.MultiDrawArraysIndirect(GL_POINTS, nullptr, static_cast<GLsizei>(groups), 0);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's splashes do not overtake these
 }
 
@@ -123,8 +110,7 @@ void SplashRenderer::forget() {
   Objects& o = *objects_;
   o.reading.forget();
   o.testing.forget();
-  for (gl::Buffer* buffer : {&o.block, &o.shelter, &o.corners, &o.jobs, &o.drawn, &o.commands})
-    buffer->forget();
+  for (gl::Buffer* buffer : {&o.block, &o.shelter, &o.jobs, &o.drawn, &o.commands}) buffer->forget();
   o.vertices.forget();
   o.canvas.forget();
 }
