@@ -15,14 +15,18 @@ RG_SHARED_BEGIN
 RG_CONST float kSplashFrom_mm = 1.0f;  // smaller drops throw up nothing (physics of rain: crowns come from about 1 mm up)
 RG_CONST float kSplashEpoch_s = 0.0625f;
 RG_CONST uint kSplashEpochs = 3u;      // that may have splashes left: two whole ones cover the longest life
-RG_CONST uint kSplashLevels = 3u;
+RG_CONST uint kSplashLevels = 4u;
+RG_CONST uint kSplashSorts = 4u;       // of drops, by size
 RG_CONST uint kSplashLattices = 2u;    // one stands in the world, one goes with the view's vehicle
 RG_CONST uint kSplashSizes = 32u;      // steps of the sizes' distribution
 RG_CONST uint kSplashGroup = 1024u;    // splashes a workgroup looks at,
 RG_CONST uint kSplashLanes = 256u;     // so many at a time
 
-// As far as this all splashes are drawn; beyond, ever fewer, each for so many more: as many as there are pixels for (by eye: a crown is some 4 px
-// wide there in a picture of 1920 px).
+RG_CONST float kSplashOnGround_m = 0.25f;  // what stands higher near the eye is its vehicle's, and moves with it
+RG_CONST uint kSplashStride = 16u;     // of so many the kernel is told the first one's job
+
+// As far as this all splashes of 2 mm drops are drawn; beyond, ever fewer, each for so many more: as many as there are pixels for (by eye: a crown is
+// some 4 px wide there in a picture of 1920 px).
 RG_CONST float kSplashAll_m = 3.0f;
 
 // A cell of a lattice during an epoch.
@@ -31,7 +35,7 @@ struct SplashJob {
   uint x;       // what its splashes are hashed from: the cell,
   uint y;
   uint epoch;
-  uint level;     // and the level of thinning: bits 0 and 1; above them the lattice, bit 2, and its name
+  uint level;     // and the level of thinning: bits 0 and 1; above them the lattice, bit 2, the sort, 3 and 4, and the lattice's name
   float since_s;  // from the epoch's beginning to the picture
   uint number;    // of its splashes in all
   uint from;      // those before are over; as many follow as there are numbers until the next job's `first`
@@ -43,9 +47,9 @@ RG_SIZE(SplashJob, 48)
 struct SplashRain {
   vec4 moves[kSplashLattices];    // xyz: the lattice's velocity, m/s
   vec4 drift[kSplashLattices];    // xyz: of the wind that drops have, past the lattice, m/s
-  vec4 search[kSplashLattices];   // x, y: heights about the reference between which lines are followed, m; z: of the ground about the reference
-  vec4 reach;                     // x: how far splashes are drawn, m; y: gain; z: how near to the eye what stands above the ground is the vehicle's,
-                                  // m, 0: nothing is
+  vec4 search[kSplashLattices];   // x, y: heights about the reference between which lines are followed, m; z: of the ground about the reference;
+                                  // w: how near to the eye what stands above the ground is the vehicle's, m, 0: nothing is
+  vec4 reach;                     // x: how far splashes are drawn, m; y: gain
   vec4 ray_middle;                // the view ray through clip (x, y) is middle + x right + y up, as long as makes its depth 1
   vec4 ray_right;
   vec4 ray_up;
@@ -99,6 +103,12 @@ RG_FN float splashSize_m(float u RG_SPLASH_RAIN) {
 // Against whatever wind or vehicle a drop comes down this fast, as lines that rise would meet nothing (by eye).
 RG_CONST float kSplashLeastFall_mps = 0.5f;
 
+// Drops of a sort are those of which so many are smaller, of all: few are large.
+RG_FN vec2 splashSort(uint sort) {
+  return vec2(sort == 0u ? 0.0f : sort == 1u ? 13.0f : sort == 2u ? 22.0f : 29.0f, sort == 0u ? 13.0f : sort == 1u ? 22.0f : sort == 2u ? 29.0f : 32.0f) *
+         (1.0f / 32.0f);
+}
+
 // Of a level the ranks are those between 1/4 and 1 of the level's own; the last has all that is left.
 RG_FN vec2 splashRanks(uint level) {
   float most = 1.0f / float(1u << (2u * level));
@@ -106,35 +116,37 @@ RG_FN vec2 splashRanks(uint level) {
 }
 
 // What drops throw up grows steeply with their size: beside one of 2 mm.
+RG_CONST float kSplashMostShare = 3.0f;
 RG_FN float splashSizeShare(float diameter_m) {
   float by_2mm = 500.0f * diameter_m;
-  return by_2mm * by_2mm * by_2mm;
+  return min(by_2mm * by_2mm * by_2mm, kSplashMostShare);
 }
 
-// How often a splash counts at a distance from the eye. As many are drawn as p = (kSplashAll_m / distance)^2 says, of those of less than 2 mm as many
-// fewer as they throw up less, each 1 / p times, those of the highest ranks half faded: the mean over all ranks is 1 everywhere, for every size.
+// How often a splash counts at a distance from the eye. As many are drawn as p = (kSplashAll_m / distance)^2 says, of larger ones more and of smaller
+// ones fewer as they throw up more or less, each 1 / p times, those of the highest ranks half faded: the mean over all ranks is 1 everywhere, for
+// every size.
 RG_FN float splashTimes(float rank, float distance_m, float diameter_m) {
   float p = kSplashAll_m / max(distance_m, 1.0e-3f);
-  p *= p * min(1.0f, splashSizeShare(diameter_m));
+  p *= p * splashSizeShare(diameter_m);
   float x = rank / p, last = 1.0f / p;
   float shown = clamp(2.0f * (1.25f - x), 0.0f, 1.0f);
   float rest = max(1.25f - last, 0.0f);
   float mean = last <= 0.75f ? last : 1.0f - rest * rest;
   return shown / (p * mean);
 }
-// Beyond this, of a level's ranks none is drawn.
-RG_FN float splashReach_m(uint level) {
+// Beyond this, of a level's ranks none is drawn whose drop is no larger.
+RG_FN float splashReach_m(uint level, float diameter_m) {
   float least = splashRanks(level).x;
-  return least > 0.0f ? kSplashAll_m * sqrt(1.25f / least) : 1.0e9f;
+  return least > 0.0f ? kSplashAll_m * sqrt(1.25f * splashSizeShare(diameter_m) / least) : 1.0e9f;
 }
 
 #if defined(__cplusplus) || defined(SPLASH_RAIN_BINDING)
 RG_FN Splash splashOf(RG_IN(SplashJob) job, uint index RG_SPLASH_RAIN) {
   uvec4 a = pcg4d(uvec4(job.x, job.y, job.epoch, job.level * 2654435769u + index)), b = pcg4d(a);
   uint lattice = job.level >> 2u & 1u;
-  vec2 ranks = splashRanks(job.level & 3u);
+  vec2 ranks = splashRanks(job.level & 3u), sort = splashSort(job.level >> 3u & 3u);
   Splash s;
-  s.diameter_m = splashSize_m(unitFloat(a.z) RG_SPLASH_RAIN_PASS);
+  s.diameter_m = splashSize_m(mix(sort.x, sort.y, unitFloat(a.z)) RG_SPLASH_RAIN_PASS);
   s.place_m = xyz(job.corner) + job.corner.w * vec3(unitFloat(a.x), unitFloat(a.y), 0.0f);
   vec4 drift = splash_rain.drift[lattice];
   s.velocity_mps = vec3(drift.x, drift.y, min(drift.z - splashFallSpeed(1.0e3f * s.diameter_m), -kSplashLeastFall_mps));
@@ -184,7 +196,6 @@ RG_CONST float kSplashWall = 0.1f;
 // diameters' third power goes (by eye: Okawa, Shiraishi & Mori 2006, "Production of secondary drops during the single water drop impact onto a plane
 // water surface", Exp. Fluids 41, find next to nothing at the threshold, and its own water's worth within some 2.5 mm of raindrops).
 RG_CONST float kSplashDroplets = 1.4f;
-RG_CONST float kSplashMostDroplets = 4.0f;
 RG_CONST float kSplashDroplet = 0.14f;  // a droplet's diameter by the drop's
 RG_CONST float kSplashAside = 0.3f;     // how fast they go aside by how fast the fastest go up (by eye: jets stand steep)
 RG_CONST float kSplashSlowest = 0.35f;  // droplets' speeds upward lie evenly between so much of the fastest's and that (by eye)
@@ -203,7 +214,7 @@ RG_FN SplashShape splashShape(float diameter_m, float age_s) {
   shape.low_m = splashFlown_m(still_mps, age_s);
   shape.high_m = splashFlown_m(fastest_mps, age_s) + kSplashDroplet * diameter_m;
   float flying = clamp((fastest_mps - still_mps) / ((1.0f - kSplashSlowest) * fastest_mps), 0.0f, 1.0f);
-  shape.droplets_m2 = min(kSplashDroplets * splashSizeShare(diameter_m), kSplashMostDroplets) * 0.785398f * diameter_m * diameter_m * x * flying;
+  shape.droplets_m2 = kSplashDroplets * splashSizeShare(diameter_m) * 0.785398f * diameter_m * diameter_m * x * flying;
   return shape;
 }
 

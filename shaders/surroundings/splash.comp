@@ -12,6 +12,7 @@ layout(local_size_x = kSplashLanes) in;
 layout(std430, binding = 0) readonly buffer Jobs { SplashJob jobs[]; };
 layout(std430, binding = 1) writeonly buffer Drawn { SplashPoint drawn[]; };
 layout(std430, binding = 2) writeonly buffer Commands { RainLineCommand commands[]; };
+layout(std430, binding = 3) readonly buffer Starts { uint starts[]; };  // the job of every kSplashStride-th splash
 layout(location = 0) uniform uint job_count;
 layout(location = 1) uniform uint splash_count;
 
@@ -35,13 +36,19 @@ vec2 depthSteps(vec3 p) {
   return vec2(depth * depth / look.focal.y, depth) / fall_m;
 }
 
+// The height over the reference from which down a line is followed: near by what stands on the ground is the vehicle's, and not the world's.
+float highest(Splash s, uint lattice) {
+  vec4 search = splash_rain.search[lattice];
+  bool is_near = max(length(splashOnLine(s, search.x)), length(splashOnLine(s, search.y))) < search.w;
+  return lattice == 0u && is_near ? min(search.y, search.z + kSplashOnGround_m) : search.y;
+}
+
 #ifdef READ_DEPTH
 layout(binding = 0) uniform sampler2D scene_depth;
 layout(binding = 2) uniform sampler2D scene_colour;
 
 const int kHeights = 8, kHalvings = 5;
 const float kLeastUp = 0.5;           // of a surface's normal: steeper ones water runs down (unsourced)
-const float kOnGround_m = 0.25;       // what stands higher near the eye is its vehicle's, and moves with it
 
 ivec2 texelAt(vec2 px) {
   vec2 size_px = look.viewport.zw;
@@ -63,7 +70,7 @@ float meets(Splash s, uint lattice) {
   vec3 p = splashOnLine(s, 0.0);
   float before, now = clearance(p);
   if (abs(now) <= 0.6 * depthSteps(p).x + 0.01) return 0.0;
-  float top = splash_rain.search[lattice].y, step_m = (top - splash_rain.search[lattice].x) / float(kHeights);
+  float top = highest(s, lattice), step_m = (top - splash_rain.search[lattice].x) / float(kHeights);
   float upper = kNowhere, above = 0.0, below = 0.0;
   before = clearance(splashOnLine(s, top));
   for (int i = 1; i <= kHeights; ++i) {
@@ -135,7 +142,8 @@ bool stands(Splash s, uint lattice, out vec3 foot) {
   float height = meets(s, lattice);
   foot = splashOnLine(s, max(height, -1e3));
   if (height == kNowhere || foot.z > 0.0 || !looksUp(foot)) return false;
-  bool is_vehicles = height - splash_rain.search[lattice].z > kOnGround_m && length(foot) < splash_rain.reach.z;
+  vec4 search = splash_rain.search[lattice];
+  bool is_vehicles = height - search.z > kSplashOnGround_m && length(foot) < search.w;
   return is_vehicles == (lattice > 0u);
 }
 #else
@@ -148,22 +156,11 @@ bool stands(Splash s, uint lattice, out vec3 foot) {
 }
 #endif
 
-// The job that a splash belongs to: the last whose first is not after it.
-uint jobOf(uint number) {
-  uint low = 0u, high = job_count;
-  while (high - low > 1u) {
-    uint middle = (low + high) / 2u;
-    if (jobs[middle].first <= number) low = middle;
-    else high = middle;
-  }
-  return low;
-}
-
 // Whether a splash is at work, and its line may be in the picture near enough to count: most are not.
 bool mayBeSeen(SplashJob job, uint number) {
   Splash s = splashOf(job, job.from + number - job.first);
-  vec2 heights = splash_rain.search[job.level >> 2u & 1u].xy;
-  vec3 low = splashOnLine(s, heights.x), high = splashOnLine(s, heights.y);
+  uint lattice = job.level >> 2u & 1u;
+  vec3 low = splashOnLine(s, splash_rain.search[lattice].x), high = splashOnLine(s, highest(s, lattice));
   vec4 a = look.clipFromWorldAtEye * vec4(low, 1.0), b = look.clipFromWorldAtEye * vec4(high, 1.0);
   bvec2 left = lessThan(max(a.xy + a.w, b.xy + b.w), vec2(0.0)), right = lessThan(max(a.w - a.xy, b.w - b.xy), vec2(0.0));
   // A line is nowhere nearer than where it passes the eye, and farther ranks count less.
@@ -236,8 +233,8 @@ uint gather(uint lane, uint begin) {
   uint end = min(begin + kSplashGroup, splash_count);
   for (uint i = lane; i < kSplashGroup / 32u; i += kSplashLanes) maybe_bits[i] = 0u;
   barrier();
-  uint job = jobOf(begin);
   for (uint number = begin + lane; number < end; number += kSplashLanes) {
+    uint job = starts[number / kSplashStride];
     while (job + 1u < job_count && jobs[job + 1u].first <= number) ++job;
     uint i = number - begin;
     if (!mayBeSeen(jobs[job], number)) continue;

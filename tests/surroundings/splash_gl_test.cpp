@@ -150,7 +150,7 @@ TEST_F(SplashPictures, areDimBeforeADarkWall) {
   const double open = sum(draw(scene, picture, kTime_ns, {}), from_row, to_row),
                shaded = sum(draw(scene, picture, kTime_ns, {.surface = walled}), from_row, to_row);
   EXPECT_GT(shaded, 0.05 * open);
-  EXPECT_LT(shaded, 0.4 * open);
+  EXPECT_LT(shaded, 0.45 * open);
 }
 
 // Seen from above, a roof over the right half of the picture and a wind from the left, that carries rain in

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -23,34 +24,66 @@ TEST(Splashes, areAsManyAndAsLargeAsTheLawsDropsOver1mm) {
     Scene scene = sceneOnGround(rate_mm_h);
     look(scene.views[0], {0, 0, 30.0}, 0.0, -1.5);
     const SplashPicture picture = pictureOf(scene);
-    double number = 0.0, diameters_mm = 0.0, area_m2 = 0.0;
+    struct Sort {
+      double number = 0.0, diameters_mm = 0.0, area_m2 = 0.0;
+    };
+    std::array<Sort, shared::kSplashSorts> sorts;
     SplashSetup setup;
-    constexpr int kPictures = 12;  // each tells of all that began in so many epochs before it:
-    constexpr int kEpochs = 2;
-    const double told_s = kEpochs * static_cast<double>(shared::kSplashEpoch_s);
-    EXPECT_LE(static_cast<double>(shared::splashLife_s(1e-3f * static_cast<float>(rain::kLargest_mm))),
-              told_s);
+    constexpr int kPictures = 16;  // each tells of all that began within so short before it:
+    const double told_s = 0.04;
+    EXPECT_LE(told_s, static_cast<double>(shared::splashLife_s(1e-3f)));
+    double kept = 0.0;
     std::set<std::tuple<uint32_t, uint32_t, uint32_t>> cells;
     for (int k = 0; k < kPictures; ++k) {
-      ASSERT_TRUE(setUpSplashes(picture, scene.views[0], k * kEpochs * kEpoch_ns, {.reach_m = 6.0}, setup));
+      ASSERT_TRUE(setUpSplashes(picture, scene.views[0], k * kEpoch_ns, {.reach_m = 6.0}, setup));
+      kept += setup.kept;
       each(setup, [&](const shared::SplashJob& job, uint32_t, const shared::Splash& s) {
         const auto age_s = static_cast<double>(s.age_s);
         if (age_s < 0.0 || age_s >= told_s) return;
-        ++number;
-        diameters_mm += 1e3 * static_cast<double>(s.diameter_m);
+        Sort& sort = sorts[job.level >> 3u & 3u];
+        ++sort.number;
+        sort.diameters_mm += 1e3 * static_cast<double>(s.diameter_m);
         if (!cells.insert({job.level, job.x, job.y}).second) return;
         const glm::vec2 ranks = shared::splashRanks(job.level & 3u);
-        area_m2 += static_cast<double>(job.corner.w * job.corner.w * (ranks.y - ranks.x));
+        sort.area_m2 += static_cast<double>(job.corner.w * job.corner.w * (ranks.y - ranks.x));
       });
     }
-    const double expected = area_m2 * law.flux(1.0, 6.0) * kPictures * told_s;
-    EXPECT_NEAR(number, expected, 4.0 * std::sqrt(expected)) << rate_mm_h;
-    double mean_mm = 0.0;
+    double told_mm = 0.0, told = 0.0, mean_mm = 0.0;
+    for (uint32_t i = 0; i < shared::kSplashSorts; ++i) {
+      const glm::vec2 share = shared::splashSort(i);
+      const double expected =
+          sorts[i].area_m2 * law.flux(1.0, 6.0) * static_cast<double>(share.y - share.x) * kept * told_s;
+      EXPECT_NEAR(sorts[i].number, expected, 4.0 * std::sqrt(expected)) << rate_mm_h << " sort " << i;
+      told += sorts[i].number / sorts[i].area_m2;
+      told_mm += sorts[i].diameters_mm / sorts[i].area_m2;
+    }
     for (double d = 1.0; d < 6.0; d += 0.01) mean_mm += (d + 0.005) * law.flux(d, d + 0.01);
     mean_mm /= law.flux(1.0, 6.0);
     // Sizes lie 0.8 mm about their mean at most; their distribution is told in 32 steps.
-    EXPECT_NEAR(diameters_mm / number, mean_mm, 4.0 * 0.8 / std::sqrt(number) + 0.01) << rate_mm_h;
+    double number = 1e30;
+    for (const Sort& sort : sorts) number = std::min(number, sort.number);
+    EXPECT_NEAR(told_mm / told, mean_mm, 4.0 * 0.8 / std::sqrt(number) + 0.01) << rate_mm_h;
   }
+}
+
+// In a storm seen all about there are more than there is room for: all are thinned alike and each counts for
+// the rest, so that the weather is the same; never are there more than the room.
+TEST(Splashes, areThinnedAlikeWhereTheyFindNoRoom) {
+  Scene scene = sceneOnGround(300.0, {0, 0, 3.0});
+  look(scene.views[0], {0, 0, 3.0}, 0.0, -1.5);
+  scene.views[0].clipFromEye = glm::perspective(2.8, 1.0, kNear_m, kFar_m);
+  const SplashPicture picture = pictureOf(scene);
+  SplashSetup all, setup;
+  SplashPicture drizzle = picture;
+  drizzle.flux_per_m2s *= 0.125;
+  ASSERT_TRUE(setUpSplashes(drizzle, scene.views[0], 0, {.reach_m = 40.0}, all));
+  ASSERT_EQ(all.kept, 1.0);
+  ASSERT_TRUE(setUpSplashes(picture, scene.views[0], 0, {.reach_m = 40.0}, setup));
+  EXPECT_LT(setup.kept, 1.0);
+  EXPECT_LE(setup.count, kMostSplashes);
+  EXPECT_EQ(setup.rain.reach.y, static_cast<float>(1.0 / setup.kept));
+  const double expected = all.count * 8.0 * setup.kept;
+  EXPECT_NEAR(setup.count, expected, 8.0 * 4.0 * std::sqrt(expected));
 }
 
 // Two pictures of the same moments know the same splashes, a step older, whatever lies between; and another
@@ -130,7 +163,7 @@ TEST(Splashes, countAsOftenAsThereAreAtAllDistances) {
         // No level's job is left out before its last rank is.
         for (uint32_t level = 0; level < shared::kSplashLevels; ++level) {
           const glm::vec2 ranks = shared::splashRanks(level);
-          if (rank > ranks.x && rank < ranks.y && distance_m > shared::splashReach_m(level)) {
+          if (rank > ranks.x && rank < ranks.y && distance_m > shared::splashReach_m(level, diameter_m)) {
             EXPECT_EQ(times, 0.0f);
           }
         }

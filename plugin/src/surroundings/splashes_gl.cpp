@@ -38,7 +38,7 @@ struct SplashRenderer::Objects {
 
   const GladGLContext& gl;
   Programs reading, testing;
-  gl::Buffer block, shelter, jobs, drawn, commands;
+  gl::Buffer block, shelter, jobs, starts, drawn, commands;
   gl::VertexArray vertices;
   rain::Canvas canvas;
   SplashPicture picture;
@@ -61,8 +61,11 @@ SplashRenderer::Objects::Objects(const gl::Context& context)
 }
 
 void SplashRenderer::Objects::makeRoom(uint32_t wanted) {
-  const size_t bytes = setup.jobs.size() * sizeof(SplashJob);
-  if (bytes > jobs.bytes()) jobs = gl::Buffer(gl, bytes + bytes / 2);
+  const auto atLeast = [&](gl::Buffer& buffer, size_t bytes) {
+    if (bytes > buffer.bytes()) buffer = gl::Buffer(gl, bytes + bytes / 2);
+  };
+  atLeast(jobs, setup.jobs.size() * sizeof(SplashJob));
+  atLeast(starts, setup.starts.size() * sizeof(uint32_t));
   if (wanted <= groups) return;
   groups = wanted + wanted / 2;
   drawn = gl::Buffer(gl, size_t{kSplashGroup} * groups * sizeof(SplashPoint), 0);
@@ -85,6 +88,7 @@ void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   o.block.write(0, &o.setup.rain, sizeof o.setup.rain);
   o.shelter.write(0, &o.setup.shelter, sizeof o.setup.shelter);
   o.jobs.write(0, std::span<const SplashJob>(o.setup.jobs));
+  o.starts.write(0, std::span<const uint32_t>(o.setup.starts));
 
   o.canvas.begin(draw);
   const GladGLContext& gl = o.gl;
@@ -94,6 +98,7 @@ void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, o.jobs.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, o.drawn.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, o.commands.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, o.starts.name());
   programs.find.use();
   programs.find.set(kJobCount, static_cast<uint32_t>(o.setup.jobs.size()));
   programs.find.set(kSplashCount, o.setup.count);
@@ -110,7 +115,8 @@ void SplashRenderer::forget() {
   Objects& o = *objects_;
   o.reading.forget();
   o.testing.forget();
-  for (gl::Buffer* buffer : {&o.block, &o.shelter, &o.jobs, &o.drawn, &o.commands}) buffer->forget();
+  for (gl::Buffer* buffer : {&o.block, &o.shelter, &o.jobs, &o.starts, &o.drawn, &o.commands})
+    buffer->forget();
   o.vertices.forget();
   o.canvas.forget();
 }
