@@ -78,11 +78,11 @@ SplashRenderer::~SplashRenderer() = default;
 
 void SplashRenderer::take(const SplashPicture& picture) { objects_->picture = picture; }
 
-void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
+double SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   Objects& o = *objects_;
   const bool reads = rain::Canvas::readsDepth(draw.target);
-  if (!reads && !o.picture.ground_known) return;
-  if (!setUpSplashes(o.picture, *draw.view, draw.time_ns, look, o.setup)) return;
+  if (!reads && !o.picture.ground_known) return 1.0;
+  if (!setUpSplashes(o.picture, *draw.view, draw.time_ns, look, o.setup)) return 1.0;
   const uint32_t groups = (o.setup.count + kSplashGroup - 1) / kSplashGroup;
   o.makeRoom(groups);
   o.block.write(0, &o.setup.rain, sizeof o.setup.rain);
@@ -109,6 +109,7 @@ void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, o.commands.name());
   gl.MultiDrawArraysIndirect(GL_POINTS, nullptr, static_cast<GLsizei>(groups), 0);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's splashes do not overtake these
+  return o.setup.kept;
 }
 
 void SplashRenderer::forget() {
