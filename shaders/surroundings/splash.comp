@@ -47,7 +47,7 @@ float highest(Splash s, uint lattice) {
 layout(binding = 0) uniform sampler2D scene_depth;
 layout(binding = 2) uniform sampler2D scene_colour;
 
-const int kHeights = 8, kHalvings = 5;
+const int kHeights = 5, kHalvings = 5;
 const float kLeastUp = 0.5;           // of a surface's normal: steeper ones water runs down (unsourced)
 
 ivec2 texelAt(vec2 px) {
@@ -70,7 +70,9 @@ float meets(Splash s, uint lattice) {
   vec3 p = splashOnLine(s, 0.0);
   float before, now = clearance(p);
   if (abs(now) <= 0.6 * depthSteps(p).x + 0.01) return 0.0;
-  float top = highest(s, lattice), step_m = (top - splash_rain.search[lattice].x) / float(kHeights);
+  // Seen where it passes the reference, it meets the scene below that; hidden there, above.
+  bool is_hidden = now < 0.0;
+  float top = is_hidden ? highest(s, lattice) : 0.0, step_m = (top - (is_hidden ? 0.0 : splash_rain.search[lattice].x)) / float(kHeights);
   float upper = kNowhere, above = 0.0, below = 0.0;
   before = clearance(splashOnLine(s, top));
   for (int i = 1; i <= kHeights; ++i) {

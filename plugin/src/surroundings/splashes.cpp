@@ -82,17 +82,17 @@ class Cells {
       : picture_(picture), cone_(cone), time_ns_(time_ns), out_(out) {}
 
   void add(const Lattice& lattice) {
-    slant_ = slantOf(lattice);
+    slant_ = slantOf(lattice, static_cast<double>(shared::kSplashFrom_mm));
+    least_slant_ = slantOf(lattice, rain::kLargest_mm);
     for (uint32_t sort = 0; sort < kSplashSorts; ++sort) {
       for (uint32_t level = 0; level < kSplashLevels; ++level) addLevel(lattice, level, sort);
     }
   }
 
  private:
-  // Of the slowest drops, which slant most: metres aside for each up.
-  static dvec2 slantOf(const Lattice& lattice) {
-    const double falls_mps =
-        rain::fallSpeed(static_cast<double>(shared::kSplashFrom_mm)) - lattice.drift_mps.z;
+  // Of drops of that size: metres aside for each up.
+  static dvec2 slantOf(const Lattice& lattice, double diameter_mm) {
+    const double falls_mps = rain::fallSpeed(diameter_mm) - lattice.drift_mps.z;
     const dvec2 slant =
         dvec2(lattice.drift_mps) / -std::max(falls_mps, static_cast<double>(shared::kSplashLeastFall_mps));
     const double aside_m = glm::length(slant) * std::max(-lattice.search_m.x, lattice.search_m.y);
@@ -100,7 +100,7 @@ class Cells {
   }
 
   // Whether any of the lines of a cell may be in view between the heights searched: they lie within what its
-  // square sweeps over, upright (no line slants less) and along the slowest's slant.
+  // square sweeps over along the slants of the fastest and of the slowest.
   bool isInView(const Lattice& lattice, const dvec3& corner_m, double cell_m) const {
     const dvec3 half(0.5 * cell_m, 0.5 * cell_m, 0.0);
     // What stands higher near by is the vehicle's, and has its own lattice.
@@ -112,7 +112,7 @@ class Cells {
       const double height_m = i < 2     ? lattice.search_m.x
                               : is_near ? lattice.ground_m + static_cast<double>(shared::kSplashOnGround_m)
                                         : lattice.search_m.y;
-      middles[i] = corner_m + half + dvec3(i % 2 == 0 ? dvec2(0.0) : slant_ * height_m, height_m);
+      middles[i] = corner_m + half + dvec3((i % 2 == 0 ? least_slant_ : slant_) * height_m, height_m);
     }
     return std::ranges::all_of(cone_.inward, [&](const dvec3& n) {
       const double wide_m = glm::dot(glm::abs(n), half);
@@ -189,8 +189,8 @@ class Cells {
   const rain::Cone& cone_;
   int64_t time_ns_;
   SplashSetup& out_;
-  dvec2 slant_{0.0};
-  double longest_s_ = 0.0;  // no splash of the sort lasts longer
+  dvec2 slant_{0.0}, least_slant_{0.0};  // of the slowest drops, and of the fastest
+  double longest_s_ = 0.0;               // no splash of the sort lasts longer
 };
 
 void tell(const Lattice& lattice, shared::SplashRain& rain) {
