@@ -15,15 +15,15 @@ RG_SHARED_BEGIN
 RG_CONST float kSplashFrom_mm = 1.0f;  // smaller drops throw up nothing (physics of rain: crowns come from about 1 mm up)
 RG_CONST float kSplashEpoch_s = 0.0625f;
 RG_CONST uint kSplashEpochs = 3u;      // that may have splashes left: two whole ones cover the longest life
-RG_CONST uint kSplashLevels = 4u;
+RG_CONST uint kSplashLevels = 4u;      // of thinning
 RG_CONST uint kSplashSorts = 4u;       // of drops, by size
 RG_CONST uint kSplashLattices = 2u;    // one stands in the world, one goes with the view's vehicle
 RG_CONST uint kSplashSizes = 32u;      // steps of the sizes' distribution
 RG_CONST uint kSplashGroup = 1024u;    // splashes a workgroup looks at,
 RG_CONST uint kSplashLanes = 256u;     // so many at a time
+RG_CONST uint kSplashStride = 16u;     // of so many the kernel is told the first one's job
 
 RG_CONST float kSplashOnGround_m = 0.25f;  // what stands higher near the eye is its vehicle's, and moves with it
-RG_CONST uint kSplashStride = 16u;     // of so many the kernel is told the first one's job
 
 // As far as this all splashes of 2 mm drops are drawn; beyond, ever fewer, each for so many more: as many as there are pixels for (by eye: a crown is
 // some 4 px wide there in a picture of 1920 px).
@@ -187,14 +187,14 @@ struct SplashShape {
   float high_m;
   float droplets_m2;  // cross-section of all of them
 };
-// The crown rises and sinks within some 60 D / U, 15 to 25 ms (Cossali et al. 2004 follow crowns on thin films for 40 to 50; by eye within that).
+// The crown rises and sinks within some 60 D / U, 15 to 25 ms (by eye: Cossali et al. 2004 follow crowns on thin films for a little less).
 RG_CONST float kSplashCrown = 60.0f;
-RG_CONST float kSplashWallHigh = 1.7f;  // drop diameters, as there
+RG_CONST float kSplashWallHigh = 1.7f;  // drop diameters, by eye as well
 // Clear water hides nothing: it mirrors some 4 % with each of its faces, more where it ripples and curves away (Fresnel; 0.066 is the mean).
 RG_CONST float kSplashWall = 0.1f;
 // Cross-section of all droplets beside the drop's: of one of 2 mm a fifth of its water in droplets of a seventh of its diameter, and of others as
-// diameters' third power goes (by eye: Okawa, Shiraishi & Mori 2006, "Production of secondary drops during the single water drop impact onto a plane
-// water surface", Exp. Fluids 41, find next to nothing at the threshold, and its own water's worth within some 2.5 mm of raindrops).
+// diameters' third power goes, up to thrice as much (by eye; that they grow so steeply from next to nothing at the threshold is what Okawa, Shiraishi &
+// Mori 2006 measured, "Production of secondary drops during the single water drop impact onto a plane water surface", Exp. Fluids 41).
 RG_CONST float kSplashDroplets = 1.4f;
 RG_CONST float kSplashDroplet = 0.14f;  // a droplet's diameter by the drop's
 RG_CONST float kSplashAside = 0.3f;     // how fast they go aside by how fast the fastest go up (by eye: jets stand steep)

@@ -131,6 +131,25 @@ TEST(Splashes, areThoseOfTheirPlaceAndTime) {
   EXPECT_GT(common, first.size() / 4);
 }
 
+// As rain gets heavier more join those that are there, and none moves elsewhere.
+TEST(Splashes, stayWhereTheyAreWhenTheRateChanges) {
+  const auto places = [](double rate_mm_h) {
+    const Scene scene = sceneOnGround(rate_mm_h);
+    std::set<std::tuple<float, float>> all;
+    SplashSetup setup;
+    setUpSplashes(pictureOf(scene), scene.views[0], 500'000'000, {}, setup);
+    each(setup, [&](const shared::SplashJob&, uint32_t, const shared::Splash& s) {
+      all.insert({s.place_m.x, s.place_m.y});
+    });
+    return all;
+  };
+  const auto before = places(20.0), after = places(21.0);
+  size_t kept = 0;
+  for (const auto& place : before) kept += after.contains(place) ? size_t{1} : size_t{0};
+  // But for those at the ends of what is told of each cell.
+  EXPECT_GT(kept, before.size() * 8 / 10);
+}
+
 // The host's world is moved under it: the same splashes at the places that are the same.
 TEST(Splashes, stayWhereTheyAreWhenTheOriginMoves) {
   const dvec3 shift_m(1234.5, -777.25, 3.0);

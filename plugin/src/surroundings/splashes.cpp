@@ -19,9 +19,9 @@ using shared::kSplashEpoch_s, shared::kSplashEpochs, shared::kSplashLevels, shar
 constexpr int64_t kEpoch_ns = 62'500'000;
 constexpr double kEpoch_s = static_cast<double>(kSplashEpoch_s);
 static_assert(static_cast<double>(kEpoch_ns) == kEpoch_s * 1e9);
-// Of the finest level of what throws up as much as a drop of 2 mm; twice that of the next; by how far they
-// are drawn of other sizes.
-constexpr double kCell_m = 1.2;
+// Cells of the finest level, by sort about as far as its drops' splashes are drawn at 50 mm/h; twice that of
+// the next level. The same at every rate, as what a cell is made of would jump with it.
+constexpr std::array<double, kSplashSorts> kCell_m = {0.8, 1.1, 1.6, 2.2};
 
 // Where the host tells no ground it is looked for as far below the eye as a driver's is above it.
 constexpr double kEyeOverGround_m = 1.3;
@@ -90,12 +90,17 @@ class Cells {
   }
 
  private:
+  // As far up or down from the reference lines are followed.
+  static double highest_m(const Lattice& lattice) {
+    return std::max(-lattice.search_m.x, lattice.search_m.y);
+  }
+
   // Of drops of that size: metres aside for each up.
   static dvec2 slantOf(const Lattice& lattice, double diameter_mm) {
     const double falls_mps = rain::fallSpeed(diameter_mm) - lattice.drift_mps.z;
     const dvec2 slant =
         dvec2(lattice.drift_mps) / -std::max(falls_mps, static_cast<double>(shared::kSplashLeastFall_mps));
-    const double aside_m = glm::length(slant) * std::max(-lattice.search_m.x, lattice.search_m.y);
+    const double aside_m = glm::length(slant) * highest_m(lattice);
     return slant * std::min(1.0, kMostAside_m / std::max(aside_m, 1e-9));
   }
 
@@ -105,7 +110,7 @@ class Cells {
     const dvec3 half(0.5 * cell_m, 0.5 * cell_m, 0.0);
     // What stands higher near by is the vehicle's, and has its own lattice.
     const double farthest_m =
-        glm::length(glm::abs(corner_m + half) + half + dvec3(glm::abs(slant_), 1.0) * kSearch_m.y);
+        glm::length(glm::abs(corner_m + half) + half + dvec3(glm::abs(slant_), 1.0) * highest_m(lattice));
     const bool is_near = lattice.number == 0 && farthest_m < lattice.own_m;
     std::array<dvec3, 4> middles;
     for (size_t i = 0; i < 4; ++i) {
@@ -133,11 +138,10 @@ class Cells {
     const glm::vec2 ranks = shared::splashRanks(level), share = shared::splashSort(sort);
     const float largest_m =
         1e-3f * picture_.sizes_mm[static_cast<size_t>(std::lround(share.y * kSplashSizes))];
-    const double cell_m =
-        kCell_m * std::exp2(level) * std::sqrt(static_cast<double>(shared::splashSizeShare(largest_m)));
+    const double cell_m = kCell_m[sort] * std::exp2(level);
     const double reach_m =
         std::min(lattice.reach_m, static_cast<double>(shared::splashReach_m(level, largest_m)));
-    const double aside_m = glm::length(slant_) * std::max(-lattice.search_m.x, lattice.search_m.y);
+    const double aside_m = glm::length(slant_) * highest_m(lattice);
     const SplashesInCells numbers(out_.kept * picture_.flux_per_m2s *
                                   static_cast<double>((ranks.y - ranks.x) * (share.y - share.x)) * cell_m *
                                   cell_m * kEpoch_s);
