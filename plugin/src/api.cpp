@@ -254,6 +254,7 @@ rg_result getRainStats(rg_instance* instance, rg_rain_stats* out) {
     r.live_bounced = live(Hydrometeor::kBouncedHail);
     r.bounced = s.bounced;
     r.ground_water_mm = frame.waterOnGround_mm();
+    r.splash_thinning = frame.splashesKept();
     writeStruct(out, r, "rg_rain_stats");
   });
 }

@@ -2,6 +2,8 @@
 // functions throw ApiError that names the field, and have no other effect.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -35,17 +37,21 @@ inline constexpr size_t kFirstSize<rg_rain_stats> = offsetof(rg_rain_stats, snow
 template <>
 inline constexpr size_t kFirstSize<rg_pane_stats> = offsetof(rg_pane_stats, dropped_s);
 
-// And in one between the first and this one, where there was such.
+// And in those between the first and this one, where there were such.
 template <typename T>
-inline constexpr size_t kMiddleSize = kFirstSize<T>;
+inline constexpr std::array kMiddleSizes = {kFirstSize<T>};
 template <>
-inline constexpr size_t kMiddleSize<rg_pane_info> = offsetof(rg_pane_info, slide_direction);
+inline constexpr std::array kMiddleSizes<rg_pane_info> = {offsetof(rg_pane_info, slide_direction)};
+template <>
+inline constexpr std::array kMiddleSizes<rg_rain_stats> = {offsetof(rg_rain_stats, ground_water_mm),
+                                                           offsetof(rg_rain_stats, splash_thinning)};
 
 // How much of a struct of that size is known here: as this header or one before it says; a longer one's end
 // is a later header's. Refuses sizes that fit none.
 template <typename T>
 size_t knownSize(uint32_t struct_size, const char* name) {
-  const bool older = struct_size == kFirstSize<T> || struct_size == kMiddleSize<T>;
+  const bool older = struct_size == kFirstSize<T> ||
+                     std::ranges::find(kMiddleSizes<T>, struct_size) != kMiddleSizes<T>.end();
   if (!older && (struct_size < sizeof(T) || struct_size > kLargestStruct)) {
     refuse(std::string(name) + ".struct_size is " + std::to_string(struct_size) + ", must be " +
                std::to_string(sizeof(T)) + " or what another header says",

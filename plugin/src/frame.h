@@ -124,6 +124,7 @@ class Frame {
   rain::FieldStats rainStats();
   double rainRate();
   double waterOnGround_mm();
+  double splashesKept() const { return splashes_kept_; }  // of those of the latest picture
   // False when more volumes are near the views than streaks can be clipped at; see setUpStreaks.
   bool nearVolumesFit() const;
   glass::PaneStats paneStats(uint32_t pane);
@@ -163,6 +164,7 @@ class Frame {
   rain::BeyondPicture beyond_picture_;
   surroundings::Splashes splashes_;
   surroundings::SplashPicture splash_picture_;
+  std::atomic<double> splashes_kept_ = 1.0;
   surroundings::Wetness wetness_;
   surroundings::WetnessPicture wetness_picture_;
   rain::RainPattern pattern_;  // empty: the project's own

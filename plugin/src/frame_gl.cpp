@@ -226,11 +226,14 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
   draw.gain = static_cast<float>(now.rain_gain);
   {
     const gl::ScopedStage timed(timers_, stage_.wetness);
-    gl.wetness->draw(draw, now.wetness_strength);
+    rain::RainDraw wet = draw;
+    // Water mirrors what stands about, where that is known.
+    if (gl.look->captured() != 0) wet.lighting.environment_cube = gl.look->captured();
+    gl.wetness->draw(wet, now.wetness_strength);
   }
   {
     const gl::ScopedStage timed(timers_, stage_.splashes);
-    gl.splashes->draw(draw, {now.splashes_gain, now.splashes_reach_m});
+    splashes_kept_ = gl.splashes->draw(draw, {now.splashes_gain, now.splashes_reach_m});
   }
   {
     const gl::ScopedStage timed(timers_, stage_.rain_beyond);

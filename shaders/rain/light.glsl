@@ -62,3 +62,9 @@ vec3 asInTarget(vec3 radiance) {
   c = clamp(c, 0.0, 1.0);
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
 }
+
+// The other way: the radiance of what a target holds.
+vec3 fromTarget(vec3 held) {
+  if (look.srgb != 0u) held = mix(held / 12.92, pow((max(held, 0.0) + 0.055) / 1.055, vec3(2.4)), greaterThan(held, vec3(0.04045)));
+  return held / look.focal.w;
+}

@@ -1,6 +1,5 @@
-// Finds where each splash's line meets what the host has drawn, and hands those to be seen to the draw calls: a workgroup's crowns stand side by
-// side in its own part of `drawn`, the droplets of near ones after them, in the order of their numbers, so that the same splashes always give the
-// same picture; a draw command for each workgroup.
+// Finds where each splash's line meets what the host has drawn, and hands those to be seen to the draw calls: a workgroup's stand side by side in
+// its own part of `drawn`, in the order of their numbers, so that the same splashes always give the same picture; a draw command for each workgroup.
 // Defines: READ_DEPTH where the host's depth can be read. Else splashes stand at the reference height, and the depth buffer hides them.
 #include "shared/rain_drop.glsl"
 layout(std140, binding = 1) uniform ShelterBlock { RainShelter rain_shelter; };
@@ -11,20 +10,19 @@ layout(std140, binding = 1) uniform ShelterBlock { RainShelter rain_shelter; };
 
 layout(local_size_x = kSplashLanes) in;
 layout(std430, binding = 0) readonly buffer Jobs { SplashJob jobs[]; };
-layout(std430, binding = 1) writeonly buffer Drawn { SplashCorner drawn[]; };
-layout(std430, binding = 2) writeonly buffer Commands { RainCommand commands[]; };
+layout(std430, binding = 1) writeonly buffer Drawn { SplashPoint drawn[]; };
+layout(std430, binding = 2) writeonly buffer Commands { RainLineCommand commands[]; };
+layout(std430, binding = 3) readonly buffer Starts { uint starts[]; };  // the job of every kSplashStride-th splash
 layout(location = 0) uniform uint job_count;
 layout(location = 1) uniform uint splash_count;
 
 const float kNowhere = -1e9;
-const float kLeastPart_px = 0.25;  // droplets of a lesser radius in the picture are not drawn
 const float kLift_m = 0.05;        // so much nearer to the eye a splash is held against a depth buffer, as it stands on what is there
 const float kBrightest = 65408.0;  // that halves hold
 const float kLeastFall_m = 0.3;    // of the ground below the eye, for what a pixel's depth is worth
 
 shared uint maybe[kSplashGroup], job_of[kSplashGroup], maybe_bits[kSplashGroup / 32u], maybe_before[kSplashGroup / 32u + 1u];
-shared uint crown_bits[kSplashLanes / 32u], crowns_before[kSplashLanes / 32u + 1u];
-shared uint droplet_bits[kSplashLanes / 32u], droplets_before[kSplashLanes / 32u + 1u];
+shared uint seen_bits[kSplashLanes / 32u], seen_before[kSplashLanes / 32u + 1u];
 
 // From the viewport's middle.
 vec2 onScreen(vec3 p) {
@@ -38,18 +36,26 @@ vec2 depthSteps(vec3 p) {
   return vec2(depth * depth / look.focal.y, depth) / fall_m;
 }
 
+// The height over the reference from which down a line is followed: near by what stands on the ground is the vehicle's, and not the world's.
+float highest(Splash s, uint lattice) {
+  vec4 search = splash_rain.search[lattice];
+  bool is_near = max(length(splashOnLine(s, search.x)), length(splashOnLine(s, search.y))) < search.w;
+  return lattice == 0u && is_near ? min(search.y, search.z + kSplashOnGround_m) : search.y;
+}
+
 #ifdef READ_DEPTH
 layout(binding = 0) uniform sampler2D scene_depth;
+layout(binding = 2) uniform sampler2D scene_colour;
 
-const int kHeights = 8, kHalvings = 5;
+const int kHeights = 5, kHalvings = 5;
 const float kLeastUp = 0.5;           // of a surface's normal: steeper ones water runs down (unsourced)
-const float kOnGround_m = 0.25;       // what stands higher near the eye is its vehicle's, and moves with it
 
-float sceneAt(vec2 px) {
+ivec2 texelAt(vec2 px) {
   vec2 size_px = look.viewport.zw;
-  float stored = texelFetch(scene_depth, ivec2(look.viewport.xy + clamp(px + 0.5 * size_px, vec2(0.5), size_px - 0.5)), 0).r;
-  return rainSceneDepth(stored, look.depth_rows, look.zero_to_one);
+  return ivec2(look.viewport.xy + clamp(px + 0.5 * size_px, vec2(0.5), size_px - 0.5));
 }
+
+float sceneAt(vec2 px) { return rainSceneDepth(texelFetch(scene_depth, texelAt(px), 0).r, look.depth_rows, look.zero_to_one); }
 
 // How far behind a place the scene is; kNowhere, as if it hid the place, beside the picture.
 float clearance(vec3 p) {
@@ -64,7 +70,9 @@ float meets(Splash s, uint lattice) {
   vec3 p = splashOnLine(s, 0.0);
   float before, now = clearance(p);
   if (abs(now) <= 0.6 * depthSteps(p).x + 0.01) return 0.0;
-  float top = splash_rain.search[lattice].y, step_m = (top - splash_rain.search[lattice].x) / float(kHeights);
+  // Seen where it passes the reference, it meets the scene below that; hidden there, above.
+  bool is_hidden = now < 0.0;
+  float top = is_hidden ? highest(s, lattice) : 0.0, step_m = (top - (is_hidden ? 0.0 : splash_rain.search[lattice].x)) / float(kHeights);
   float upper = kNowhere, above = 0.0, below = 0.0;
   before = clearance(splashOnLine(s, top));
   for (int i = 1; i <= kHeights; ++i) {
@@ -113,42 +121,53 @@ bool looksUp(vec3 p) {
   return abs(normal.z) >= kLeastUp * length(normal);
 }
 
+// The surface that a splash stands on, as the target holds it.
+vec3 surfaceAt(vec3 foot) { return texelFetch(scene_colour, texelAt(onScreen(foot)), 0).rgb; }
+
+// The sine of the elevation up to which the scene stands behind a place, as far as the picture tells it above there.
+float standsBehind(vec3 foot) {
+  const int kLooks = 4;
+  float sky = look.depth_rows.y > 0.0 ? 0.0 : 1.0;
+  vec2 px = onScreen(foot), up = normalize(onScreen(foot + vec3(0.0, 0.0, 0.01 * dot(foot, look.forward.xyz))) - px + vec2(0.0, 1e-6));
+  float behind = 0.0, step_px = 3.0;
+  for (int i = 0; i < kLooks; ++i) {
+    vec2 there = floor(px + step_px * up) + 0.5;
+    vec3 way = sceneFrom(there) - foot;
+    if (dot(way.xy, foot.xy) > 0.0 && texelFetch(scene_depth, texelAt(there), 0).r != sky) behind = max(behind, way.z / length(way));
+    step_px *= 3.0;
+  }
+  return behind;
+}
+
 // Where on its line a splash stands. False where it stands nowhere.
 bool stands(Splash s, uint lattice, out vec3 foot) {
   float height = meets(s, lattice);
   foot = splashOnLine(s, max(height, -1e3));
   if (height == kNowhere || foot.z > 0.0 || !looksUp(foot)) return false;
-  bool is_vehicles = height - splash_rain.search[lattice].z > kOnGround_m && length(foot) < splash_rain.reach.z;
+  vec4 search = splash_rain.search[lattice];
+  bool is_vehicles = height - search.z > kSplashOnGround_m && length(foot) < search.w;
   return is_vehicles == (lattice > 0u);
 }
 #else
+vec3 surfaceAt(vec3 foot) { return asInTarget(look.ground.rgb); }
+float standsBehind(vec3 foot) { return 0.0; }
+
 bool stands(Splash s, uint lattice, out vec3 foot) {
   foot = splashOnLine(s, 0.0);
   return lattice == 0u && foot.z <= 0.0;
 }
 #endif
 
-// The job that a splash belongs to: the last whose first is not after it.
-uint jobOf(uint number) {
-  uint low = 0u, high = job_count;
-  while (high - low > 1u) {
-    uint middle = (low + high) / 2u;
-    if (jobs[middle].first <= number) low = middle;
-    else high = middle;
-  }
-  return low;
-}
-
 // Whether a splash is at work, and its line may be in the picture near enough to count: most are not.
 bool mayBeSeen(SplashJob job, uint number) {
   Splash s = splashOf(job, job.from + number - job.first);
-  vec2 heights = splash_rain.search[job.level >> 2u & 1u].xy;
-  vec3 low = splashOnLine(s, heights.x), high = splashOnLine(s, heights.y);
+  uint lattice = job.level >> 2u & 1u;
+  vec3 low = splashOnLine(s, splash_rain.search[lattice].x), high = splashOnLine(s, highest(s, lattice));
   vec4 a = look.clipFromWorldAtEye * vec4(low, 1.0), b = look.clipFromWorldAtEye * vec4(high, 1.0);
   bvec2 left = lessThan(max(a.xy + a.w, b.xy + b.w), vec2(0.0)), right = lessThan(max(a.w - a.xy, b.w - b.xy), vec2(0.0));
   // A line is nowhere nearer than where it passes the eye, and farther ranks count less.
   vec2 way = high.xy - low.xy, nearest = low.xy + way * clamp(-dot(low.xy, way) / max(dot(way, way), 1e-6), 0.0, 1.0);
-  return splashIsAlive(s) && !any(left) && !any(right) && splashTimes(s.rank, length(nearest)) > 0.0;
+  return splashIsAlive(s) && !any(left) && !any(right) && splashTimes(s.rank, length(nearest), s.diameter_m) > 0.0;
 }
 
 struct Seen {
@@ -163,32 +182,41 @@ bool seenOf(SplashJob job, uint number, out Splash s, out Seen seen) {
   if (!stands(s, lattice, seen.foot)) return false;
   seen.depth = dot(seen.foot, look.forward.xyz);
   float distance_m = length(seen.foot), reach_m = splash_rain.reach.x;
-  seen.times = splashTimes(s.rank, distance_m) * (1.0 - smoothstep(0.7 * reach_m, reach_m, distance_m)) * splash_rain.reach.y;
+  seen.times = splashTimes(s.rank, distance_m, s.diameter_m) * (1.0 - smoothstep(0.7 * reach_m, reach_m, distance_m)) * splash_rain.reach.y;
   vec2 px = onScreen(seen.foot);
   if (seen.depth < kRainNearest_m || !(seen.times > 0.0) || any(greaterThan(abs(px), 0.5 * look.viewport.zw))) return false;
   float skin_m = 0.01 + seen.depth / look.focal.y;
   return !splashIsSheltered(seen.foot, s.velocity_mps, splash_rain.moves[lattice].xyz, s.age_s, skin_m);
 }
 
-void put(uint part, vec3 foot, SplashCrown crown, vec3 light, float times, float phase) {
-  float depth = dot(foot, look.forward.xyz), sine = abs(foot.z) / length(foot), px_per_m = look.focal.y / depth;
-  vec2 foot_px = onScreen(foot), up_px = onScreen(foot + vec3(0.0, 0.0, 0.01 * depth)) - foot_px;
-  vec2 up = length(up_px) > 1e-3 ? normalize(up_px) : vec2(0.0, 1.0), across = vec2(up.y, -up.x);
-  float radius = crown.radius_m * px_per_m, height = crown.height_m * px_per_m * sqrt(1.0 - sine * sine), rim = crown.rim_m * px_per_m;
-  float pixel = 2.0 * rainPixelHalf(up), wide = radius + pixel, low = radius * sine + rim + pixel, high = height + low;
-  vec2 clip = 2.0 / look.viewport.zw;
-  float before = max(depth - kLift_m - 2.0 * depthSteps(foot).x, 0.5 * depth);
-  vec4 of_all[3];
-  of_all[0] = vec4(foot_px + look.viewport.xy + 0.5 * look.viewport.zw, up);
-  of_all[1] = vec4(radius, height, rim, sine);
-  of_all[2] = vec4(uintBitsToFloat(packHalf2x16(light.rg)), uintBitsToFloat(packHalf2x16(vec2(light.b, times))), before, phase);
-  for (uint i = 0u; i < 4u; ++i) {
-    vec2 px = foot_px + across * ((i & 1u) == 0u ? -wide : wide) + up * (i < 2u ? -low : high);
-    drawn[4u * part + i].place = vec4(px * clip, rainStoredDepth(before, look.depth_rows), 1.0);
+// As the target holds it.
+vec3 lightOf(vec3 foot) {
+  vec3 towards = normalize(foot), above = look.sky.rgb;
+  float behind = standsBehind(foot);
+  if (look.environment > 0u) {
+    vec3 up_behind = normalize(vec3(towards.xy, 0.7 * length(towards.xy) + 1e-3));
+    above = textureLod(environment, up_behind, max(float(look.environment) - 2.5, 0.0)).rgb;
   }
-  drawn[4u * part].a = of_all[0];
-  drawn[4u * part].b = of_all[1];
-  drawn[4u * part].c = of_all[2];
+  if (look.sun_direction.z > behind) above += look.sun_irradiance.rgb * rainPhase(dot(towards, look.sun_direction.xyz));
+  vec3 from_lamps = gatheredFromLamps(foot);
+  return min(splashLight(fromTarget(surfaceAt(foot)), above, towards.z, behind) + from_lamps, vec3(1e9));
+}
+
+void put(uint at, Splash s, Seen seen) {
+  vec3 foot = seen.foot, light = clamp(asInTarget(lightOf(foot)), vec3(0.0), vec3(kBrightest));
+  vec2 foot_px = onScreen(foot), up_px = onScreen(foot + vec3(0.0, 0.0, 0.01 * seen.depth)) - foot_px;
+  vec2 up = length(up_px) > 1e-3 ? normalize(up_px) : vec2(0.0, 1.0);
+  SplashDrawn d = splashDrawn(splashShape(s.diameter_m, s.age_s), look.focal.y / seen.depth, abs(foot.z) / length(foot), seen.times);
+  float pixel = rainPixelHalf(up), away = d.radius * d.sine, high = max(d.wall_height, d.high + 0.35 * (d.high - d.low));
+  vec2 middle_px = foot_px + up * (0.5 * high);
+  float half_px = max(d.radius, away + 0.5 * high) + pixel;
+  float before = max(seen.depth - kLift_m - 2.0 * depthSteps(foot).x, 0.5 * seen.depth);
+  float phase = float(s.seed & 1023u) * (6.2831853 / 1024.0);
+  drawn[at] = SplashPoint(vec4(middle_px * (2.0 / look.viewport.zw), rainStoredDepth(before, look.depth_rows), 4.0 * pixel * half_px),
+                          vec4(foot_px + look.viewport.xy + 0.5 * look.viewport.zw, uintBitsToFloat(packHalf2x16(up)), before),
+                          vec4(d.radius, d.wall_height, d.low, d.high),
+                          vec4(uintBitsToFloat(packHalf2x16(light.rg)), uintBitsToFloat(packHalf2x16(vec2(light.b, d.sine))),
+                               uintBitsToFloat(packHalf2x16(vec2(d.wall, phase))), d.droplets));
 }
 
 // How many of the bits stand before one. `before`: how many do in the words before each.
@@ -207,8 +235,8 @@ uint gather(uint lane, uint begin) {
   uint end = min(begin + kSplashGroup, splash_count);
   for (uint i = lane; i < kSplashGroup / 32u; i += kSplashLanes) maybe_bits[i] = 0u;
   barrier();
-  uint job = jobOf(begin);
   for (uint number = begin + lane; number < end; number += kSplashLanes) {
+    uint job = starts[number / kSplashStride];
     while (job + 1u < job_count && jobs[job + 1u].first <= number) ++job;
     uint i = number - begin;
     if (!mayBeSeen(jobs[job], number)) continue;
@@ -226,38 +254,23 @@ uint gather(uint lane, uint begin) {
 }
 
 void main() {
-  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, first = group * kSplashParts;
-  uint begin = group * kSplashGroup, count = gather(lane, begin), parts = 0u;
+  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, begin = group * kSplashGroup;
+  uint count = gather(lane, begin), drawn_so_far = 0u;
   for (uint from = 0u; from < count; from += kSplashLanes) {
-    if (lane < kSplashLanes / 32u) crown_bits[lane] = droplet_bits[lane] = 0u;
+    if (lane < kSplashLanes / 32u) seen_bits[lane] = 0u;
     barrier();
     Splash s;
     Seen seen;
     bool is_seen = false;
     // A loop that runs once at most: software GL leaves those that none enters, but goes through what a branch leaves out.
     for (uint i = from + lane; i < count; i = count) is_seen = seenOf(jobs[job_of[maybe[i]]], begin + maybe[i], s, seen);
-    bool is_near = is_seen && 0.1 * s.diameter_m * look.focal.y > kLeastPart_px * seen.depth;
-    uint bit = 1u << (lane % 32u);
-    if (is_seen) atomicOr(crown_bits[lane / 32u], bit);
-    if (is_near) atomicOr(droplet_bits[lane / 32u], bit);
+    if (is_seen) atomicOr(seen_bits[lane / 32u], 1u << (lane % 32u));
     barrier();
-    COUNT_BEFORE(crown_bits, crowns_before, kSplashLanes / 32u)
-    COUNT_BEFORE(droplet_bits, droplets_before, kSplashLanes / 32u)
+    COUNT_BEFORE(seen_bits, seen_before, kSplashLanes / 32u)
     barrier();
-    uint crowns = crowns_before[kSplashLanes / 32u], nears = droplets_before[kSplashLanes / 32u];
-    for (bool shows = is_seen; shows; shows = false) {
-      vec3 light = clamp(asInTarget(gathered(seen.foot)), vec3(0.0), vec3(kBrightest));
-      float phase = float(s.seed & 1023u) * (6.2831853 / 1024.0);
-      uint part = parts + RANK(crown_bits, crowns_before, lane);
-      if (part < kSplashParts) put(first + part, seen.foot, splashCrown(s.diameter_m, s.age_s / s.life_s), light, seen.times, phase);
-      for (uint i = 0u; is_near && i < kSplashDroplets; ++i) {
-        part = parts + crowns + RANK(droplet_bits, droplets_before, lane) * kSplashDroplets + i;
-        vec4 droplet = splashDroplet(s, i);
-        if (part < kSplashParts) put(first + part, seen.foot + droplet.xyz, SplashCrown(droplet.w, 0.0, 0.5 * droplet.w), light, seen.times, 0.0);
-      }
-    }
-    parts = min(parts + crowns + nears * kSplashDroplets, kSplashParts);
+    for (bool shows = is_seen; shows; shows = false) put(begin + drawn_so_far + RANK(seen_bits, seen_before, lane), s, seen);
+    drawn_so_far += seen_before[kSplashLanes / 32u];
     barrier();
   }
-  if (lane == 0u) commands[group] = RainCommand(6u * parts, 1u, 0u, 4u * first, 0u);
+  if (lane == 0u) commands[group] = RainLineCommand(drawn_so_far, 1u, begin, 0u);
 }

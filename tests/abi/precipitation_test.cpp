@@ -81,6 +81,15 @@ TEST_F(Precipitation, hostsOfTheFirstHeaderAreServed) {
   EXPECT_EQ(stats.struct_size, kStats);
   EXPECT_GT(stats.live, 0u);
   EXPECT_EQ(stats.bounced, 77u);
+  // And of each since.
+  for (const size_t size :
+       {offsetof(rg_rain_stats, ground_water_mm), offsetof(rg_rain_stats, splash_thinning)}) {
+    rg_rain_stats later{};
+    later.struct_size = static_cast<uint32_t>(size);
+    later.splash_thinning = 77.0;
+    scene.expect(api.get_rain_stats(scene.instance, &later));
+    EXPECT_EQ(later.splash_thinning, 77.0);
+  }
 }
 
 TEST_F(Precipitation, isSharedOutByTemperatureWhenAskedTo) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -23,34 +24,66 @@ TEST(Splashes, areAsManyAndAsLargeAsTheLawsDropsOver1mm) {
     Scene scene = sceneOnGround(rate_mm_h);
     look(scene.views[0], {0, 0, 30.0}, 0.0, -1.5);
     const SplashPicture picture = pictureOf(scene);
-    double number = 0.0, diameters_mm = 0.0, area_m2 = 0.0;
+    struct Sort {
+      double number = 0.0, diameters_mm = 0.0, area_m2 = 0.0;
+    };
+    std::array<Sort, shared::kSplashSorts> sorts;
     SplashSetup setup;
-    constexpr int kPictures = 12;  // each tells of all that began in so many epochs before it:
-    constexpr int kEpochs = 2;
-    const double told_s = kEpochs * static_cast<double>(shared::kSplashEpoch_s);
-    EXPECT_LE(static_cast<double>(shared::splashLife_s(1e-3f * static_cast<float>(rain::kLargest_mm))),
-              told_s);
+    constexpr int kPictures = 16;  // each tells of all that began within so short before it:
+    const double told_s = 0.04;
+    EXPECT_LE(told_s, static_cast<double>(shared::splashLife_s(1e-3f)));
+    double kept = 0.0;
     std::set<std::tuple<uint32_t, uint32_t, uint32_t>> cells;
     for (int k = 0; k < kPictures; ++k) {
-      ASSERT_TRUE(setUpSplashes(picture, scene.views[0], k * kEpochs * kEpoch_ns, {.reach_m = 6.0}, setup));
+      ASSERT_TRUE(setUpSplashes(picture, scene.views[0], k * kEpoch_ns, {.reach_m = 6.0}, setup));
+      kept += setup.kept;
       each(setup, [&](const shared::SplashJob& job, uint32_t, const shared::Splash& s) {
         const auto age_s = static_cast<double>(s.age_s);
         if (age_s < 0.0 || age_s >= told_s) return;
-        ++number;
-        diameters_mm += 1e3 * static_cast<double>(s.diameter_m);
+        Sort& sort = sorts[job.level >> 3u & 3u];
+        ++sort.number;
+        sort.diameters_mm += 1e3 * static_cast<double>(s.diameter_m);
         if (!cells.insert({job.level, job.x, job.y}).second) return;
         const glm::vec2 ranks = shared::splashRanks(job.level & 3u);
-        area_m2 += static_cast<double>(job.corner.w * job.corner.w * (ranks.y - ranks.x));
+        sort.area_m2 += static_cast<double>(job.corner.w * job.corner.w * (ranks.y - ranks.x));
       });
     }
-    const double expected = area_m2 * law.flux(1.0, 6.0) * kPictures * told_s;
-    EXPECT_NEAR(number, expected, 4.0 * std::sqrt(expected)) << rate_mm_h;
-    double mean_mm = 0.0;
+    double told_mm = 0.0, told = 0.0, mean_mm = 0.0;
+    for (uint32_t i = 0; i < shared::kSplashSorts; ++i) {
+      const glm::vec2 share = shared::splashSort(i);
+      const double expected =
+          sorts[i].area_m2 * law.flux(1.0, 6.0) * static_cast<double>(share.y - share.x) * kept * told_s;
+      EXPECT_NEAR(sorts[i].number, expected, 4.0 * std::sqrt(expected)) << rate_mm_h << " sort " << i;
+      told += sorts[i].number / sorts[i].area_m2;
+      told_mm += sorts[i].diameters_mm / sorts[i].area_m2;
+    }
     for (double d = 1.0; d < 6.0; d += 0.01) mean_mm += (d + 0.005) * law.flux(d, d + 0.01);
     mean_mm /= law.flux(1.0, 6.0);
     // Sizes lie 0.8 mm about their mean at most; their distribution is told in 32 steps.
-    EXPECT_NEAR(diameters_mm / number, mean_mm, 4.0 * 0.8 / std::sqrt(number) + 0.01) << rate_mm_h;
+    double number = 1e30;
+    for (const Sort& sort : sorts) number = std::min(number, sort.number);
+    EXPECT_NEAR(told_mm / told, mean_mm, 4.0 * 0.8 / std::sqrt(number) + 0.01) << rate_mm_h;
   }
+}
+
+// In a storm seen all about there are more than there is room for: all are thinned alike and each counts for
+// the rest, so that the weather is the same; never are there more than the room.
+TEST(Splashes, areThinnedAlikeWhereTheyFindNoRoom) {
+  Scene scene = sceneOnGround(300.0, {0, 0, 3.0});
+  look(scene.views[0], {0, 0, 3.0}, 0.0, -1.5);
+  scene.views[0].clipFromEye = glm::perspective(2.8, 1.0, kNear_m, kFar_m);
+  const SplashPicture picture = pictureOf(scene);
+  SplashSetup all, setup;
+  SplashPicture drizzle = picture;
+  drizzle.flux_per_m2s *= 0.125;
+  ASSERT_TRUE(setUpSplashes(drizzle, scene.views[0], 0, {.reach_m = 40.0}, all));
+  ASSERT_EQ(all.kept, 1.0);
+  ASSERT_TRUE(setUpSplashes(picture, scene.views[0], 0, {.reach_m = 40.0}, setup));
+  EXPECT_LT(setup.kept, 1.0);
+  EXPECT_LE(setup.count, kMostSplashes);
+  EXPECT_EQ(setup.rain.reach.y, static_cast<float>(1.0 / setup.kept));
+  const double expected = all.count * 8.0 * setup.kept;
+  EXPECT_NEAR(setup.count, expected, 8.0 * 4.0 * std::sqrt(expected));
 }
 
 // Two pictures of the same moments know the same splashes, a step older, whatever lies between; and another
@@ -98,6 +131,25 @@ TEST(Splashes, areThoseOfTheirPlaceAndTime) {
   EXPECT_GT(common, first.size() / 4);
 }
 
+// As rain gets heavier more join those that are there, and none moves elsewhere.
+TEST(Splashes, stayWhereTheyAreWhenTheRateChanges) {
+  const auto places = [](double rate_mm_h) {
+    const Scene scene = sceneOnGround(rate_mm_h);
+    std::set<std::tuple<float, float>> all;
+    SplashSetup setup;
+    setUpSplashes(pictureOf(scene), scene.views[0], 500'000'000, {}, setup);
+    each(setup, [&](const shared::SplashJob&, uint32_t, const shared::Splash& s) {
+      all.insert({s.place_m.x, s.place_m.y});
+    });
+    return all;
+  };
+  const auto before = places(20.0), after = places(21.0);
+  size_t kept = 0;
+  for (const auto& place : before) kept += after.contains(place) ? size_t{1} : size_t{0};
+  // But for those at the ends of what is told of each cell.
+  EXPECT_GT(kept, before.size() * 8 / 10);
+}
+
 // The host's world is moved under it: the same splashes at the places that are the same.
 TEST(Splashes, stayWhereTheyAreWhenTheOriginMoves) {
   const dvec3 shift_m(1234.5, -777.25, 3.0);
@@ -116,45 +168,82 @@ TEST(Splashes, stayWhereTheyAreWhenTheOriginMoves) {
     ASSERT_LT(glm::distance(before.jobs[i].corner, after.jobs[i].corner), 1e-4f);
 }
 
-// Fewer are drawn far off, and each for more: at every distance all together count as often as there are.
+// Fewer are drawn far off, of small ones fewer still, and each for more: at every distance all of a size
+// together count as often as there are.
 TEST(Splashes, countAsOftenAsThereAreAtAllDistances) {
   for (const float distance_m : {0.5f, 3.0f, 4.2f, 5.0f, 9.0f, 20.0f, 40.0f}) {
-    constexpr int kRanks = 20000;
-    double sum = 0.0;
-    for (int i = 0; i < kRanks; ++i) {
-      const float rank = (static_cast<float>(i) + 0.5f) / kRanks;
-      const float times = shared::splashTimes(rank, distance_m);
-      sum += static_cast<double>(times);
-      // No level's job is left out before its last rank is.
-      for (uint32_t level = 0; level < shared::kSplashLevels; ++level) {
-        const glm::vec2 ranks = shared::splashRanks(level);
-        if (rank > ranks.x && rank < ranks.y && distance_m > shared::splashReach_m(level)) {
-          EXPECT_EQ(times, 0.0f);
+    for (const float diameter_m : {0.001f, 0.0015f, 0.002f, 0.004f}) {
+      constexpr int kRanks = 100'000;
+      double sum = 0.0;
+      for (int i = 0; i < kRanks; ++i) {
+        const float rank = (static_cast<float>(i) + 0.5f) / kRanks;
+        const float times = shared::splashTimes(rank, distance_m, diameter_m);
+        sum += static_cast<double>(times);
+        // No level's job is left out before its last rank is.
+        for (uint32_t level = 0; level < shared::kSplashLevels; ++level) {
+          const glm::vec2 ranks = shared::splashRanks(level);
+          if (rank > ranks.x && rank < ranks.y && distance_m > shared::splashReach_m(level, diameter_m)) {
+            EXPECT_EQ(times, 0.0f);
+          }
         }
       }
+      EXPECT_NEAR(sum / kRanks, 1.0, 5e-3) << distance_m << " m, " << diameter_m;
     }
-    EXPECT_NEAR(sum / kRanks, 1.0, 2e-3) << distance_m;
   }
 }
 
-// Of any size and at any place on the grid of pixels, and of a picture that leans.
+// Of any size and age and at any place on the grid of pixels, seen from any elevation.
 TEST(Splashes, coverAsMuchAtEverySize) {
-  for (const float radius : {0.05f, 0.4f, 1.3f, 6.0f}) {
+  for (const float px_per_m : {20.0f, 200.0f, 800.0f, 2500.0f}) {
     for (const float sine : {0.0f, 0.1f, 0.7f, 1.0f}) {
-      const float height = 1.4f * radius * (1.0f - sine), rim = 0.12f * radius;
-      for (const glm::vec2 offset : {glm::vec2(0.0f), glm::vec2(0.31f, 0.77f), glm::vec2(0.5f, 0.12f)}) {
-        double sum = 0.0;
-        for (int y = -10; y < 22; ++y) {
-          for (int x = -10; x <= 10; ++x)
-            sum += static_cast<double>(
-                shared::splashCover(glm::vec2(x, y) + offset, 0.5f, radius, height, rim, sine, 1.0f));
+      for (const float age_s : {0.005f, 0.015f, 0.04f}) {
+        const shared::SplashShape shape = shared::splashShape(0.002f, age_s);
+        const shared::SplashDrawn drawn = shared::splashDrawn(shape, px_per_m, sine, 2.0f);
+        for (const glm::vec2 offset : {glm::vec2(0.0f), glm::vec2(0.31f, 0.77f), glm::vec2(0.5f, 0.12f)}) {
+          double sum = 0.0;
+          for (int y = -26; y < 40; ++y) {
+            for (int x = -26; x <= 26; ++x)
+              sum += static_cast<double>(
+                  shared::splashCover(glm::vec2(x, y) + offset, 0.5f, drawn, glm::vec2(0.8f, 0.6f)));
+          }
+          // Droplets about the ring add up to nothing, but for how pixels sample them.
+          const auto expected = static_cast<double>(shared::splashCoverSum(drawn));
+          EXPECT_NEAR(sum, expected, 0.03 * expected) << px_per_m << " px/m, sine " << sine << ", " << age_s;
         }
-        // Beads on the rim add up to nothing round the circle, but for how pixels sample them.
-        const auto expected = static_cast<double>(shared::splashCoverSum(radius, height, rim));
-        EXPECT_NEAR(sum, expected, 0.03 * expected) << radius << " px, sine " << sine;
       }
     }
   }
+}
+
+// What they cover in nature is what their wall and droplets do, whatever they are drawn like.
+TEST(Splashes, areDrawnAsTheyAre) {
+  const shared::SplashShape shape = shared::splashShape(0.003f, 0.012f);
+  const shared::SplashDrawn drawn = shared::splashDrawn(shape, 1000.0f, 0.6f, 1.0f);
+  const double wall_m2 =
+      2.0 * 3.14159265 * static_cast<double>(shape.radius_m * shape.wall_m * 0.8f * shape.wall);
+  EXPECT_NEAR(static_cast<double>(shared::splashCoverSum(drawn)),
+              1e6 * (wall_m2 + static_cast<double>(shape.droplets_m2)), 1e-3);
+  // The crown sinks back long before the last droplets are down, and they are when its life ends.
+  const float life_s = shared::splashLife_s(0.003f);
+  EXPECT_EQ(shared::splashShape(0.003f, 0.5f * life_s).wall_m, 0.0f);
+  EXPECT_GT(shared::splashShape(0.003f, 0.5f * life_s).droplets_m2, 0.0f);
+  EXPECT_NEAR(shared::splashShape(0.003f, life_s).droplets_m2, 0.0f, 1e-9f);
+}
+
+// Among things equally bright they are as bright; seen from the side they gather half their light from the
+// sky (0.94 of it through two faces), from above none but what they mirror, and as little where something
+// stands behind them that is as dark as the ground.
+TEST(Splashes, areAsBrightAsWhatIsAround) {
+  const vec3 dark(0.1f), sky(1.0f);
+  const auto light = [](const vec3& below, const vec3& above, double towards, double behind) {
+    return static_cast<double>(
+        shared::splashLight(below, above, static_cast<float>(towards), static_cast<float>(behind)).x);
+  };
+  EXPECT_NEAR(light(sky, sky, -0.4, 0.3), 1.0, 1e-6);
+  EXPECT_NEAR(light(dark, sky, 0.0, 0.0), 0.1 + 0.9 * 0.5, 1e-6);
+  EXPECT_NEAR(light(dark, sky, -1.0, 0.0), 0.1 + 0.9 * 0.03, 1e-6);
+  EXPECT_NEAR(light(dark, sky, -0.5, 0.866), 0.1 + 0.9 * 0.03, 1e-3);  // 30 degrees and 60 are 90
+  EXPECT_LT(light(dark, sky, -0.5, 0.5), 0.6 * light(dark, sky, -0.5, 0.0));
 }
 
 // Against steps of 5 mm up the line, each asked whether it lies in a box: boxes that stand and boxes that

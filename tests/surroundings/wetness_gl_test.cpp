@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "gl/objects.h"
 #include "gl/state_guard.h"
 #include "gl_fixture.h"
@@ -18,8 +20,8 @@ class WetPictures : public rg::test::GlTest {
   void SetUp() override { loaded = gl::loadContext(rg::test::GlContext::getProc, nullptr); }
 
   // Over white, below a black sky: what is left is what the wet ground sends back itself.
-  rg::test::Picture draw(const Scene& scene, const WetnessPicture& picture, Surface surface,
-                         double strength) {
+  rg::test::Picture draw(const Scene& scene, const WetnessPicture& picture, Surface surface, double strength,
+                         float sky = 0.0f) {
     constexpr int kWidth = 160, kHeight = 90;
     const gl::StateGuard guard(*loaded, RG_TOUCHED_PROGRAM | RG_TOUCHED_VERTEX_ARRAY | RG_TOUCHED_BUFFERS |
                                             RG_TOUCHED_TEXTURES | RG_TOUCHED_FRAMEBUFFER |
@@ -36,7 +38,8 @@ class WetPictures : public rg::test::GlTest {
     request.view = &scene.views[0];
     request.viewport_px = {0, 0, kWidth, kHeight};
     request.target = {target.name(), colour.name(), deep.name(), kWidth, kHeight, false, 1.0f};
-    request.lighting.sky_radiance = request.lighting.ground_radiance = vec3(0.0f);
+    request.lighting.sky_radiance = vec3(sky);
+    request.lighting.ground_radiance = vec3(0.0f);
     WetnessRenderer renderer(*loaded);
     renderer.take(picture);
     renderer.draw(request, strength);
@@ -54,7 +57,8 @@ TEST_F(WetPictures, areDryWhereARoofKeepsTheRainOff) {
   rain::Field field;
   ASSERT_EQ(setBox(field, 1, {0, -20, 2.0}, {1.5, 20, 3.0}), "");
   WetnessPicture picture;
-  picture.share = 1.0;
+  picture.water_mm = 1.0;
+  picture.has_volumes = true;
   picture.fall_mps = {3.0, 0.0, -6.0};
   picture.volumes = pictureOf(scene, field).volumes;
   const auto seen = draw(scene, picture, levelGround, 1.0);
@@ -73,7 +77,8 @@ TEST_F(WetPictures, areDryWhereARoofKeepsTheRainOff) {
 TEST_F(WetPictures, leaveWallsSkyAndWhatNobodyAskedForAsTheyAre) {
   Scene scene = sceneOnGround(50.0);
   WetnessPicture picture;
-  picture.share = 1.0;
+  picture.water_mm = 1.0;
+  picture.has_volumes = true;
   const auto lowest = [](const rg::test::Picture& p) {
     float least = 1.0f;
     for (const glm::vec4& pixel : p.pixels) least = std::min(least, pixel.x);
@@ -85,6 +90,38 @@ TEST_F(WetPictures, leaveWallsSkyAndWhatNobodyAskedForAsTheyAre) {
   EXPECT_EQ(draw(scene, picture, levelGround, 1.0).at(80, 80).x, 1.0f);
   // Lekner & Dorf's table: of an albedo of 0.20 0.127 is left.
   EXPECT_NEAR(shared::wetAlbedoFactor(), 0.127f / 0.2f, 0.005f);
+}
+
+// From the first drops on it darkens ever more, and only then, as the texture fills, does it mirror the sky;
+// without steps. Where volumes are not told yet nothing is drawn, as what they shelter would be wet.
+TEST_F(WetPictures, darkenFirstAndShineAsWaterGathers) {
+  const Scene scene = sceneOnGround(50.0);
+  const auto mean = [&](double water_mm, float sky, bool has_volumes = true) {
+    WetnessPicture picture;
+    picture.water_mm = water_mm;
+    picture.has_volumes = has_volumes;
+    const auto seen = draw(scene, picture, levelGround, 1.0, sky);
+    double all = 0.0;
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 160; ++x) all += static_cast<double>(seen.at(x, y).x) / (160 * 40);
+    }
+    return all;
+  };
+  constexpr std::array kWater_mm = {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0};
+  double before = 1.0, mirrored = 0.0, first_gloss = 0.0, gloss = 0.0;
+  for (const double water_mm : kWater_mm) {
+    const double dark = mean(water_mm, 0.0f), shine = mean(water_mm, 1.0f) - dark;
+    EXPECT_LE(dark, before);
+    EXPECT_GE(dark, before - 0.15);
+    EXPECT_GE(shine, mirrored);
+    before = dark;
+    mirrored = shine;
+    if (water_mm > 0.0) gloss = shine / (1.0 - dark);
+    if (first_gloss == 0.0) first_gloss = gloss;
+  }
+  EXPECT_GT(first_gloss, 0.0);
+  EXPECT_GT(gloss, 1.5 * first_gloss);
+  EXPECT_NEAR(mean(1.0, 1.0f, false), 1.0, 1e-9);
 }
 
 }  // namespace

@@ -448,6 +448,8 @@ void GlassLook::capture(const glm::dmat4& eyeFromWorld, int max_faces, const Dra
   parts_->capture.renew(eyeFromWorld, settings.capture_size_px, max_faces, draw, depth);
 }
 
+uint32_t GlassLook::captured() const { return parts_->capture.cube(); }
+
 void GlassLook::dropCapture() { parts_->capture.drop(); }
 
 void GlassLook::abandon() { parts_->forget(); }

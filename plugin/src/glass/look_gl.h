@@ -163,6 +163,8 @@ class GlassLook {
   // Renews the captured surroundings of the eye: at most `max_faces` pictures in this call, the forward one
   // most often. `depth`: what the pictures' matrices make of distance; as the host's own views do.
   void capture(const glm::dmat4& eyeFromWorld, int max_faces, const DrawScene& draw, DepthUse depth = {});
+  // What was captured: a cube of linear radiance with mips, world axes (+Z face up); 0 while there is none.
+  uint32_t captured() const;
   // Captured pictures are no longer used (the host stopped giving them, or the eye was put elsewhere).
   void dropCapture();
 

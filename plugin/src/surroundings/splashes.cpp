@@ -1,6 +1,7 @@
 #include "surroundings/splashes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,13 +13,15 @@ namespace rg::surroundings {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::vec4;
-using shared::kSplashEpoch_s, shared::kSplashEpochs, shared::kSplashLevels, shared::kSplashSizes;
+using shared::kSplashEpoch_s, shared::kSplashEpochs, shared::kSplashLevels, shared::kSplashSizes,
+    shared::kSplashSorts;
 
 constexpr int64_t kEpoch_ns = 62'500'000;
 constexpr double kEpoch_s = static_cast<double>(kSplashEpoch_s);
 static_assert(static_cast<double>(kEpoch_ns) == kEpoch_s * 1e9);
-constexpr double kLongest_s = (kSplashEpochs - 1) * kEpoch_s;  // no splash lasts longer
-constexpr double kCell_m = 0.8;  // of the finest level, twice that of the next: some hundred splashes each
+// Cells of the finest level, by sort about as far as its drops' splashes are drawn at 50 mm/h; twice that of
+// the next level. The same at every rate, as what a cell is made of would jump with it.
+constexpr std::array<double, kSplashSorts> kCell_m = {0.8, 1.1, 1.6, 2.2};
 
 // Where the host tells no ground it is looked for as far below the eye as a driver's is above it.
 constexpr double kEyeOverGround_m = 1.3;
@@ -29,7 +32,7 @@ constexpr dvec2 kSearch_m{-1.2, 1.8}, kWideSearch_m{-3.0, 1.0};
 constexpr double kBonnet_m = 0.9, kVehicle_m = 4.0;
 constexpr dvec2 kBonnetSearch_m{-0.4, 0.4};
 constexpr double kFarthestCell = 1e9;  // where cells can still be told apart
-// As far beyond their reach lines are still looked for that slant into it, which keeps storms cheap.
+// As far aside lines are looked for that slant into view, which keeps storms cheap.
 constexpr double kMostAside_m = 5.0;
 
 vec4 wide(const dvec3& v) { return vec4(glm::vec3(v), 0.0f); }
@@ -66,86 +69,119 @@ struct Lattice {
   dvec3 origin_m{0.0};  // at the picture's time
   dvec3 velocity_mps{0.0}, drift_mps{0.0};
   double reference_m = 0.0;  // world z
+  double ground_m = 0.0;     // above that
   dvec2 search_m{0.0};
   double reach_m = 0.0;
+  double own_m = 0.0;  // so near to the eye what stands above the ground is the vehicle's
 };
 
-// Cells of all levels whose lines may meet something in view.
+// Cells of all levels and sorts whose lines may meet something in view.
 class Cells {
  public:
   Cells(const SplashPicture& picture, const rain::Cone& cone, int64_t time_ns, SplashSetup& out)
       : picture_(picture), cone_(cone), time_ns_(time_ns), out_(out) {}
 
   void add(const Lattice& lattice) {
-    for (uint32_t level = 0; level < kSplashLevels; ++level) addLevel(lattice, level);
+    slant_ = slantOf(lattice, static_cast<double>(shared::kSplashFrom_mm));
+    least_slant_ = slantOf(lattice, rain::kLargest_mm);
+    for (uint32_t sort = 0; sort < kSplashSorts; ++sort) {
+      for (uint32_t level = 0; level < kSplashLevels; ++level) addLevel(lattice, level, sort);
+    }
   }
 
  private:
-  // Of the slowest drops, which slant most: metres aside for each up.
-  static dvec2 slantOf(const Lattice& lattice) {
-    const double falls_mps =
-        rain::fallSpeed(static_cast<double>(shared::kSplashFrom_mm)) - lattice.drift_mps.z;
-    return dvec2(lattice.drift_mps) / -std::max(falls_mps, static_cast<double>(shared::kSplashLeastFall_mps));
+  // As far up or down from the reference lines are followed.
+  static double highest_m(const Lattice& lattice) {
+    return std::max(-lattice.search_m.x, lattice.search_m.y);
   }
 
-  // What of the lines of a cell lies between the heights searched, as a box.
+  // Of drops of that size: metres aside for each up.
+  static dvec2 slantOf(const Lattice& lattice, double diameter_mm) {
+    const double falls_mps = rain::fallSpeed(diameter_mm) - lattice.drift_mps.z;
+    const dvec2 slant =
+        dvec2(lattice.drift_mps) / -std::max(falls_mps, static_cast<double>(shared::kSplashLeastFall_mps));
+    const double aside_m = glm::length(slant) * highest_m(lattice);
+    return slant * std::min(1.0, kMostAside_m / std::max(aside_m, 1e-9));
+  }
+
+  // Whether any of the lines of a cell may be in view between the heights searched: they lie within what its
+  // square sweeps over along the slants of the fastest and of the slowest.
   bool isInView(const Lattice& lattice, const dvec3& corner_m, double cell_m) const {
-    const dvec2 slant = slantOf(lattice);
-    dvec2 low(corner_m), high = low + cell_m;
-    for (const double height_m : {lattice.search_m.x, lattice.search_m.y}) {
-      low = glm::min(low, dvec2(corner_m) + slant * height_m);
-      high = glm::max(high, dvec2(corner_m) + cell_m + slant * height_m);
+    const dvec3 half(0.5 * cell_m, 0.5 * cell_m, 0.0);
+    // What stands higher near by is the vehicle's, and has its own lattice.
+    const double farthest_m =
+        glm::length(glm::abs(corner_m + half) + half + dvec3(glm::abs(slant_), 1.0) * highest_m(lattice));
+    const bool is_near = lattice.number == 0 && farthest_m < lattice.own_m;
+    std::array<dvec3, 4> middles;
+    for (size_t i = 0; i < 4; ++i) {
+      const double height_m = i < 2     ? lattice.search_m.x
+                              : is_near ? lattice.ground_m + static_cast<double>(shared::kSplashOnGround_m)
+                                        : lattice.search_m.y;
+      middles[i] = corner_m + half + dvec3((i % 2 == 0 ? least_slant_ : slant_) * height_m, height_m);
     }
-    const dvec3 from(low, corner_m.z + lattice.search_m.x), to(high, corner_m.z + lattice.search_m.y);
-    const dvec3 middle = 0.5 * (from + to), half = 0.5 * (to - from);
     return std::ranges::all_of(cone_.inward, [&](const dvec3& n) {
-      return glm::dot(n, middle) + glm::dot(glm::abs(n), half) > 0.0;
+      const double wide_m = glm::dot(glm::abs(n), half);
+      return std::ranges::any_of(middles, [&](const dvec3& m) { return glm::dot(n, m) + wide_m > 0.0; });
     });
   }
 
-  void addLevel(const Lattice& lattice, uint32_t level) {
-    const double cell_m = kCell_m * std::exp2(level);
-    // Lines that stand beyond come in at other heights.
-    const double aside_m = glm::length(slantOf(lattice)) * std::max(-lattice.search_m.x, lattice.search_m.y);
-    const double reach_m = std::min(lattice.reach_m, static_cast<double>(shared::splashReach_m(level))) +
-                           std::min(aside_m, kMostAside_m);
-    const glm::vec2 ranks = shared::splashRanks(level);
-    const SplashesInCells numbers(picture_.flux_per_m2s * static_cast<double>(ranks.y - ranks.x) * cell_m *
+  // How near to the eye, on the level, lines of a cell come that begins there.
+  double nearest_m(const Lattice& lattice, const dvec2& corner_m, double cell_m) const {
+    const dvec2 middle = corner_m + 0.5 * cell_m;
+    const double along = -glm::dot(middle, slant_) / std::max(glm::dot(slant_, slant_), 1e-12);
+    const dvec2 aside = slant_ * std::clamp(along, lattice.search_m.x, lattice.search_m.y);
+    const dvec2 low = corner_m + aside;
+    return glm::length(glm::clamp(dvec2(0.0), low, low + cell_m));
+  }
+
+  void addLevel(const Lattice& lattice, uint32_t level, uint32_t sort) {
+    const glm::vec2 ranks = shared::splashRanks(level), share = shared::splashSort(sort);
+    const float largest_m =
+        1e-3f * picture_.sizes_mm[static_cast<size_t>(std::lround(share.y * kSplashSizes))];
+    const double cell_m = kCell_m[sort] * std::exp2(level);
+    const double reach_m =
+        std::min(lattice.reach_m, static_cast<double>(shared::splashReach_m(level, largest_m)));
+    const double aside_m = glm::length(slant_) * highest_m(lattice);
+    const SplashesInCells numbers(out_.kept * picture_.flux_per_m2s *
+                                  static_cast<double>((ranks.y - ranks.x) * (share.y - share.x)) * cell_m *
                                   cell_m * kEpoch_s);
-    const dvec2 eye = dvec2(cone_.eye_m - lattice.origin_m) / cell_m, reach = dvec2(reach_m / cell_m);
+    longest_s_ = static_cast<double>(shared::splashLife_s(largest_m));
+    const dvec2 eye = dvec2(cone_.eye_m - lattice.origin_m) / cell_m,
+                reach = dvec2((reach_m + aside_m) / cell_m);
     const dvec2 first = glm::floor(eye - reach), last = glm::floor(eye + reach);
     if (!glm::all(glm::lessThan(glm::abs(eye), dvec2(kFarthestCell)))) return;
     for (double y = first.y; y <= last.y; ++y) {
       for (double x = first.x; x <= last.x; ++x) {
-        const dvec2 nearest = glm::clamp(eye, dvec2(x, y), dvec2(x + 1.0, y + 1.0));
         const dvec3 corner_m(dvec2(x, y) * cell_m + dvec2(lattice.origin_m - cone_.eye_m),
                              lattice.reference_m - cone_.eye_m.z);
-        if (glm::distance(nearest, eye) > reach.x || !isInView(lattice, corner_m, cell_m)) continue;
-        addEpochs(lattice, level, numbers, dvec2(x, y), vec4(glm::vec3(corner_m), cell_m));
+        if (nearest_m(lattice, dvec2(corner_m), cell_m) > reach_m || !isInView(lattice, corner_m, cell_m))
+          continue;
+        addEpochs(level | lattice.number << 2u | sort << 3u | lattice.name << 5u, numbers, dvec2(x, y),
+                  vec4(glm::vec3(corner_m), cell_m));
       }
     }
   }
 
-  void addEpochs(const Lattice& lattice, uint32_t level, const SplashesInCells& numbers, const dvec2& cell,
-                 const vec4& corner) {
+  void addEpochs(uint32_t level, const SplashesInCells& numbers, const dvec2& cell, const vec4& corner) {
     const int64_t epoch = time_ns_ / kEpoch_ns - (time_ns_ % kEpoch_ns < 0 ? 1 : 0);
     shared::SplashJob job;
     job.corner = corner;
     job.x = static_cast<uint32_t>(static_cast<int64_t>(cell.x));
     job.y = static_cast<uint32_t>(static_cast<int64_t>(cell.y));
-    job.level = level | lattice.number << 2u | lattice.name << 3u;
+    job.level = level;
     for (uint32_t back = 0; back < kSplashEpochs; ++back) {
       const int64_t begun = epoch - back;
       job.epoch = static_cast<uint32_t>(begun);
       job.since_s = static_cast<float>(static_cast<double>(time_ns_ - begun * kEpoch_ns) * 1e-9);
+      // The earliest are over, the last are still to come.
+      const auto since_s = static_cast<double>(job.since_s);
+      if (since_s - longest_s_ >= kEpoch_s) return;
       job.number = numbers.of(job.x, job.y, job.epoch, job.level);
       job.first = out_.count;
-      // The earliest are over, the last are still to come.
       const auto numberBy = [&](double after_s) {
         return static_cast<uint32_t>(std::clamp(after_s / kEpoch_s, 0.0, 1.0) * job.number);
       };
-      const auto since_s = static_cast<double>(job.since_s);
-      job.from = numberBy(since_s - kLongest_s);
+      job.from = numberBy(since_s - longest_s_);
       const uint32_t until = std::min(job.number, numberBy(since_s) + 1);
       if (job.from >= until) continue;
       out_.jobs.push_back(job);
@@ -157,12 +193,24 @@ class Cells {
   const rain::Cone& cone_;
   int64_t time_ns_;
   SplashSetup& out_;
+  dvec2 slant_{0.0}, least_slant_{0.0};  // of the slowest drops, and of the fastest
+  double longest_s_ = 0.0;               // no splash of the sort lasts longer
 };
 
-void tell(const Lattice& lattice, double ground_m, shared::SplashRain& rain) {
+void tell(const Lattice& lattice, shared::SplashRain& rain) {
   rain.moves[lattice.number] = wide(lattice.velocity_mps);
   rain.drift[lattice.number] = wide(lattice.drift_mps);
-  rain.search[lattice.number] = vec4(lattice.search_m, ground_m - lattice.reference_m, 0.0f);
+  rain.search[lattice.number] = vec4(lattice.search_m, lattice.ground_m, lattice.own_m);
+}
+
+// Spares the kernel most of its search for the job that a splash belongs to.
+void tellStarts(SplashSetup& out) {
+  out.starts.clear();
+  size_t job = 0;
+  for (uint32_t number = 0; number < out.count; number += shared::kSplashStride) {
+    while (job + 1 < out.jobs.size() && out.jobs[job + 1].first <= number) ++job;
+    out.starts.push_back(static_cast<uint32_t>(job));
+  }
 }
 
 }  // namespace
@@ -225,8 +273,8 @@ uint32_t SplashesInCells::of(uint32_t x, uint32_t y, uint32_t epoch, uint32_t le
 bool setUpSplashes(const SplashPicture& picture, const ViewState& view, int64_t time_ns,
                    const SplashLook& look, SplashSetup& out) {
   const rain::Cone cone = rain::coneOf(view);
-  out.jobs.clear();
   out.count = 0;
+  out.jobs.clear();
   if (!(picture.flux_per_m2s > 0.0) || !(look.gain > 0.0) || !(look.reach_m > 0.0) || !cone.valid)
     return false;
   const double after_s = static_cast<double>(time_ns - picture.time_ns) * 1e-9;
@@ -241,16 +289,13 @@ bool setUpSplashes(const SplashPicture& picture, const ViewState& view, int64_t 
   for (uint32_t k = 0; k <= kSplashSizes; ++k)
     out.rain.sizes_mm[k / 4][static_cast<int>(k % 4)] = picture.sizes_mm[k];
 
-  Cells cells(picture, cone, time_ns, out);
-  Lattice world;
+  std::vector<Lattice> lattices(1);
+  Lattice& world = lattices.front();
   world.origin_m = picture.origin_m;
   world.drift_mps = picture.drift_mps;
   world.reference_m = picture.ground_m;
   world.search_m = picture.ground_known ? kSearch_m : kWideSearch_m;
   world.reach_m = reach_m;
-  tell(world, picture.ground_m, out.rain);
-  cells.add(world);
-  out.rain.reach = vec4(reach_m, look.gain, 0.0, 0.0);
 
   const auto vehicle = std::ranges::find(picture.vehicles, view.vehicle, &SplashPicture::Vehicle::id);
   if (vehicle != picture.vehicles.end()) {
@@ -261,12 +306,23 @@ bool setUpSplashes(const SplashPicture& picture, const ViewState& view, int64_t 
     on_it.velocity_mps = vehicle->pose.velocity_mps;
     on_it.drift_mps = picture.drift_mps - on_it.velocity_mps;
     on_it.reference_m = picture.ground_m + kBonnet_m;
+    on_it.ground_m = -kBonnet_m;
     on_it.search_m = kBonnetSearch_m;
     on_it.reach_m = std::min(reach_m, kVehicle_m);
-    tell(on_it, picture.ground_m, out.rain);
-    cells.add(on_it);
-    out.rain.reach.z = static_cast<float>(kVehicle_m);
+    world.own_m = on_it.own_m = kVehicle_m;
+    lattices.push_back(on_it);
   }
+  for (const Lattice& lattice : lattices) tell(lattice, out.rain);
+  // Thinned in steps of one half, so that which ones are left seldom changes.
+  for (out.kept = 1.0;; out.kept *= 0.5) {
+    out.jobs.clear();
+    out.count = 0;
+    Cells cells(picture, cone, time_ns, out);
+    for (const Lattice& lattice : lattices) cells.add(lattice);
+    if (out.count <= kMostSplashes) break;
+  }
+  out.rain.reach = vec4(reach_m, look.gain / out.kept, 0.0, 0.0);
+  tellStarts(out);
   return out.count > 0;
 }
 

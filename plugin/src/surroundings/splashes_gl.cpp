@@ -10,7 +10,7 @@
 namespace rg::surroundings {
 namespace {
 
-using shared::kSplashGroup, shared::kSplashParts, shared::SplashCorner, shared::SplashJob;
+using shared::kSplashGroup, shared::SplashJob, shared::SplashPoint;
 
 constexpr GLint kJobCount = 0, kSplashCount = 1;  // the kernel's uniforms
 
@@ -30,16 +30,6 @@ struct Programs {
   gl::Program find, show;
 };
 
-// The two triangles of each of a group's rectangles. Both begin with the first corner, whose flat values
-// count.
-std::vector<uint32_t> rectangles() {
-  std::vector<uint32_t> indices;
-  for (uint32_t i = 0; i < kSplashParts; ++i) {
-    for (const uint32_t corner : {0u, 1u, 3u, 0u, 3u, 2u}) indices.push_back(4 * i + corner);
-  }
-  return indices;
-}
-
 }  // namespace
 
 struct SplashRenderer::Objects {
@@ -48,7 +38,7 @@ struct SplashRenderer::Objects {
 
   const GladGLContext& gl;
   Programs reading, testing;
-  gl::Buffer block, shelter, corners, jobs, drawn, commands;
+  gl::Buffer block, shelter, jobs, starts, drawn, commands;
   gl::VertexArray vertices;
   rain::Canvas canvas;
   SplashPicture picture;
@@ -62,24 +52,25 @@ SplashRenderer::Objects::Objects(const gl::Context& context)
       testing(gl, false),
       block(gl, sizeof(shared::SplashRain)),
       shelter(gl, sizeof(shared::RainShelter)),
-      corners(gl, std::span<const uint32_t>(rectangles())),
       vertices(gl),
       canvas(gl) {
-  vertices.bindIndices(corners.name());
-  vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(SplashCorner, place));
-  vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(SplashCorner, a));
-  vertices.attribute(2, 0, 4, GL_FLOAT, offsetof(SplashCorner, b));
-  vertices.attribute(3, 0, 4, GL_FLOAT, offsetof(SplashCorner, c));
+  vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(SplashPoint, place));
+  vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(SplashPoint, a));
+  vertices.attribute(2, 0, 4, GL_FLOAT, offsetof(SplashPoint, b));
+  vertices.attribute(3, 0, 4, GL_FLOAT, offsetof(SplashPoint, c));
 }
 
 void SplashRenderer::Objects::makeRoom(uint32_t wanted) {
-  const size_t bytes = setup.jobs.size() * sizeof(SplashJob);
-  if (bytes > jobs.bytes()) jobs = gl::Buffer(gl, bytes + bytes / 2);
+  const auto atLeast = [&](gl::Buffer& buffer, size_t bytes) {
+    if (bytes > buffer.bytes()) buffer = gl::Buffer(gl, bytes + bytes / 2);
+  };
+  atLeast(jobs, setup.jobs.size() * sizeof(SplashJob));
+  atLeast(starts, setup.starts.size() * sizeof(uint32_t));
   if (wanted <= groups) return;
   groups = wanted + wanted / 2;
-  drawn = gl::Buffer(gl, size_t{4} * kSplashParts * groups * sizeof(SplashCorner), 0);
-  commands = gl::Buffer(gl, groups * sizeof(shared::RainCommand), 0);
-  vertices.bindBuffer(0, drawn.name(), 0, sizeof(SplashCorner));
+  drawn = gl::Buffer(gl, size_t{kSplashGroup} * groups * sizeof(SplashPoint), 0);
+  commands = gl::Buffer(gl, groups * sizeof(shared::RainLineCommand), 0);
+  vertices.bindBuffer(0, drawn.name(), 0, sizeof(SplashPoint));
 }
 
 SplashRenderer::SplashRenderer(const gl::Context& context) : objects_(std::make_unique<Objects>(context)) {}
@@ -87,16 +78,17 @@ SplashRenderer::~SplashRenderer() = default;
 
 void SplashRenderer::take(const SplashPicture& picture) { objects_->picture = picture; }
 
-void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
+double SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   Objects& o = *objects_;
   const bool reads = rain::Canvas::readsDepth(draw.target);
-  if (!reads && !o.picture.ground_known) return;
-  if (!setUpSplashes(o.picture, *draw.view, draw.time_ns, look, o.setup)) return;
+  if (!reads && !o.picture.ground_known) return 1.0;
+  if (!setUpSplashes(o.picture, *draw.view, draw.time_ns, look, o.setup)) return 1.0;
   const uint32_t groups = (o.setup.count + kSplashGroup - 1) / kSplashGroup;
   o.makeRoom(groups);
   o.block.write(0, &o.setup.rain, sizeof o.setup.rain);
   o.shelter.write(0, &o.setup.shelter, sizeof o.setup.shelter);
   o.jobs.write(0, std::span<const SplashJob>(o.setup.jobs));
+  o.starts.write(0, std::span<const uint32_t>(o.setup.starts));
 
   o.canvas.begin(draw);
   const GladGLContext& gl = o.gl;
@@ -106,6 +98,7 @@ void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, o.jobs.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, o.drawn.name());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, o.commands.name());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, o.starts.name());
   programs.find.use();
   programs.find.set(kJobCount, static_cast<uint32_t>(o.setup.jobs.size()));
   programs.find.set(kSplashCount, o.setup.count);
@@ -113,17 +106,17 @@ void SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) {
   gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   programs.show.use();
   gl.BindVertexArray(o.vertices.name());
-  gl.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, o.commands.name());
-  gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(groups), 0);
+  gl.MultiDrawArraysIndirect(GL_POINTS, nullptr, static_cast<GLsizei>(groups), 0);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's splashes do not overtake these
+  return o.setup.kept;
 }
 
 void SplashRenderer::forget() {
   Objects& o = *objects_;
   o.reading.forget();
   o.testing.forget();
-  for (gl::Buffer* buffer : {&o.block, &o.shelter, &o.corners, &o.jobs, &o.drawn, &o.commands})
+  for (gl::Buffer* buffer : {&o.block, &o.shelter, &o.jobs, &o.starts, &o.drawn, &o.commands})
     buffer->forget();
   o.vertices.forget();
   o.canvas.forget();

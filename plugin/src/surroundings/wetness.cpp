@@ -18,6 +18,4 @@ void Wetness::tick(const Tick& tick) {
   water_mm_ = std::clamp(water_mm_ + change_mm_h * kTickSeconds / 3600.0, 0.0, kMostOnGround_mm);
 }
 
-double Wetness::share() const { return 1.0 - std::exp(-water_mm_ / kWetting_mm); }
-
 }  // namespace rg::surroundings

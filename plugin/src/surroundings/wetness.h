@@ -9,8 +9,6 @@ namespace rg::surroundings {
 
 // What a road holds before the rest runs off, mm (macrotexture of asphalt is 0.5 .. 1 mm deep; unsourced).
 inline constexpr double kMostOnGround_mm = 1.0;
-// With so much less than a tenth of it dry patches show; what is wet follows 1 - exp(-water / this) (by eye).
-inline constexpr double kWetting_mm = 0.1;
 
 // What an open water surface gives to the air: Penman 1948, "Natural evaporation from open water, bare soil
 // and grass", Proc. R. Soc. A 193: 0.35 (1 + 0.54 u) (e_s - e) mm a day, pressures in mmHg, u at 2 m in m/s.
@@ -23,8 +21,6 @@ class Wetness {
   void tick(const Tick& tick);
   void reset() { water_mm_ = 0.0; }
   double water_mm() const { return water_mm_; }
-  // 0 dry .. 1 wet: the share of the ground that shows water.
-  double share() const;
 
  private:
   double water_mm_ = 0.0;

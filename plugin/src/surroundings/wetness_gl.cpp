@@ -38,13 +38,16 @@ void WetnessRenderer::take(const WetnessPicture& picture) { objects_->picture = 
 void WetnessRenderer::draw(const rain::RainDraw& draw, double strength) {
   Objects& o = *objects_;
   const rain::Cone cone = rain::coneOf(*draw.view);
-  const double wet = strength * o.picture.share;
-  if (!(wet > 0.0) || !cone.valid || !rain::Canvas::readsDepth(draw.target)) return;
+  if (!(strength > 0.0) || !(o.picture.water_mm > 0.0) || !o.picture.has_volumes || !cone.valid ||
+      !rain::Canvas::readsDepth(draw.target))
+    return;
   const double after_s = static_cast<double>(draw.time_ns - o.picture.time_ns) * 1e-9;
   rain::setUpShelter(o.picture.volumes, cone.eye_m, after_s, *o.volumes);
   const rain::Rays rays = rain::raysOf(cone, *draw.view);
+  // Patches stand still in the host's world; their noise repeats.
+  const glm::dvec2 place_m = glm::mod(glm::dvec2(cone.eye_m), static_cast<double>(shared::kWetRepeat_m));
   const shared::WetView view{wide(rays.middle), wide(rays.right), wide(rays.up),
-                             wide(o.picture.fall_mps, wet)};
+                             wide(o.picture.fall_mps, strength), glm::vec4(o.picture.water_mm, place_m, 0.0)};
   o.block.write(0, &view, sizeof view);
   o.shelter.write(0, o.volumes.get(), sizeof *o.volumes);
   o.canvas.begin(draw);

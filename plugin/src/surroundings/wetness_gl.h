@@ -15,7 +15,8 @@ inline constexpr double kWetShelter_m = 150.0;
 
 struct WetnessPicture {
   int64_t time_ns = 0;
-  double share = 0.0;                   // of open ground that shows water
+  double water_mm = 0.0;                // on open ground
+  bool has_volumes = false;             // `volumes` are told; else nothing can be drawn
   glm::dvec3 fall_mps{0.0, 0.0, -1.0};  // of the drops that bring most of it
   std::vector<rain::NearVolume> volumes;
 };
