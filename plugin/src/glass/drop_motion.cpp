@@ -19,13 +19,19 @@ constexpr int kMostAside = 2;     // texels
 
 // Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
 // "depinning by wind".
-glm::dvec2 drag_n(const Drop& drop, glm::dvec2 air_mps, double width_m) {
-  const double height_m = static_cast<double>(drop.height_m);
-  const double speed = glm::length(air_mps) * std::pow(std::min(1.0, height_m / kBoundaryLayer_m), 1.0 / 7.0);
-  const double outline_m2 = 2.0 / 3.0 * height_m * width_m;
-  return 0.5 * kRhoAir_kg_m3 * outline_m2 * speed * glm::length(air_mps) * air_mps /
-         std::max(1e-9, glm::length(air_mps));
-}
+struct Drag {
+  double outline_m2, profile;  // of the free air's speed at the cap's height
+  Drag(const Drop& drop, double width_m) {
+    const double height_m = static_cast<double>(drop.height_m);
+    outline_m2 = 2.0 / 3.0 * height_m * width_m;
+    profile = std::pow(std::min(1.0, height_m / kBoundaryLayer_m), 1.0 / 7.0);
+  }
+  glm::dvec2 at_n(glm::dvec2 air_mps) const {
+    const double free_mps = glm::length(air_mps);
+    return 0.5 * kRhoAir_kg_m3 * outline_m2 * (free_mps * profile) * free_mps * air_mps /
+           std::max(1e-9, free_mps);
+  }
+};
 
 }  // namespace
 
@@ -39,10 +45,12 @@ void Drops::move(const DropWorld& world) {
   }
 }
 
-// Not where even the greatest forces of the pane together are too weak: most drops, most of the time.
+// Not where even the greatest forces of its tile together are too weak: most drops, most of the time.
 bool Drops::mayMove(const DropWorld& world, const Drop& drop) {
   if (!drop.braced) return true;
-  const double acceleration = world.forces.mostAcceleration_mps2(), air = world.forces.mostAir_mps();
+  const ForceField::Most& most = world.forces.mostAbout(world.map, drop.place_m);
+  const double acceleration = static_cast<double>(most.acceleration_mps2),
+               air = static_cast<double>(most.air_mps);
   constexpr double kRounding = 0.999;  // of floats
   return static_cast<double>(drop.acceleration_s2_m) * acceleration +
              static_cast<double>(drop.air2_s2_m2) * air * air >
@@ -55,13 +63,14 @@ void Drops::slide(const DropWorld& world, int slot) {
   const double width_m =
       2.0 * static_cast<double>(drop.base_radius_m) / std::sqrt(static_cast<double>(drop.elongation));
   const double mass_kg = kRho_kg_m3 * cubicMetres(drop.volume_pl);
-  const glm::dvec2 force_n = mass_kg * push.acceleration_mps2 + drag_n(drop, push.air_mps, width_m);
+  const Drag drag(drop, width_m);
+  const glm::dvec2 force_n = mass_kg * push.acceleration_mps2 + drag.at_n(push.air_mps);
   const double force = glm::length(force_n);
   const double hold_n = hold_per_m_ * width_m;
   if (!drop.moving && force <= hold_n) {
     drop.braced = true;
     drop.acceleration_s2_m = static_cast<float>(mass_kg / hold_n);
-    drop.air2_s2_m2 = static_cast<float>(glm::length(drag_n(drop, {1.0, 0.0}, width_m)) / hold_n);
+    drop.air2_s2_m2 = static_cast<float>(glm::length(drag.at_n({1.0, 0.0})) / hold_n);
     return;
   }
   drop.braced = false;
@@ -82,9 +91,7 @@ void Drops::slide(const DropWorld& world, int slot) {
   if (speed < 1e-5) return;
 
   const glm::dvec2 from_m = drop.place_m;
-  unlink(slot);
-  drop.place_m += velocity / push.metres * kTickSeconds;
-  link(slot);
+  moveTo(slot, from_m + velocity / push.metres * kTickSeconds);
   drop.heading = glm::vec2(velocity / speed);
   // Round at rest, twice as long as wide at 0.3 m/s: between the corner and the pearls of Le Grand, Daerr &
   // Limat 2005 (value by eye).

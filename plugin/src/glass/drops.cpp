@@ -33,18 +33,23 @@ Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
       shape_advancing_(capShape(surface.advancing_rad)),
       shape_receding_(capShape(surface.receding_rad)),
       shape_mean_(capShape(meanAngle(surface))),
+      least_bead_m3_(largestBead_m3(map.leastTexel_m2())),
+      most_bead_m3_(largestBead_m3(map.mostTexel_m2())),
       hold_per_m_(retention_n(1.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad))) {
   slots_.capacity_ = capacity;
   slots_.items.reserve(capacity);
   slots_.free.reserve(capacity);
-  cells_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), -1);
+  cells_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), {});
+  block_count_ = (cell_count_ + (kBlock - 1)) / kBlock;
+  widest_m_.assign(static_cast<size_t>(block_count_.x * block_count_.y), 0.0f);
 }
 
 void Drops::clear() {
   slots_.items.clear();
   slots_.free.clear();
   changed_.clear();
-  std::fill(cells_.begin(), cells_.end(), -1);
+  std::fill(cells_.begin(), cells_.end(), Cell{});
+  std::fill(widest_m_.begin(), widest_m_.end(), 0.0f);
   live_ = 0;
   largest_radius_m_ = 0.0;
 }
@@ -55,23 +60,36 @@ int64_t Drops::volume_pl() const {
   return sum;
 }
 
+glm::ivec2 Drops::cellAt(glm::dvec2 place_m) const {
+  return glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
+}
+
 size_t Drops::cellOf(glm::dvec2 place_m) const {
-  const glm::ivec2 cell = glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
+  const glm::ivec2 cell = cellAt(place_m);
   return static_cast<size_t>(cell.y * cell_count_.x + cell.x);
 }
 
 void Drops::link(int slot) {
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  int32_t& first = cells_[cellOf(drop.place_m)];
-  drop.next = first;
-  first = slot;
+  Cell& cell = cells_[cellOf(drop.place_m)];
+  drop.next = cell.first;
+  cell.first = slot;
+  noteWidth(drop);
 }
 
 void Drops::unlink(int slot) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  int32_t* at = &cells_[cellOf(drop.place_m)];
+  int32_t* at = &cells_[cellOf(drop.place_m)].first;
   while (*at != slot) at = &slots_.items[static_cast<size_t>(*at)].next;
   *at = drop.next;
+}
+
+void Drops::moveTo(int slot, glm::dvec2 place_m) {
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const bool stays = cellOf(place_m) == cellOf(drop.place_m);
+  if (!stays) unlink(slot);
+  drop.place_m = place_m;
+  if (!stays) link(slot);
 }
 
 // A contact line moves where the angle would leave the range between receding and advancing; otherwise it is
@@ -81,12 +99,13 @@ void Drops::settle(Drop& drop) {
   const double volume_m3 = cubicMetres(drop.volume_pl);
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double shape = volume_m3 / (radius_m * radius_m * radius_m);
-  if (!(shape <= shape_advancing_))
+  if (!(shape <= shape_advancing_)) {
     drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_advancing_));
+    noteWidth(drop);
+  }
   if (shape < shape_receding_)
     drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
   drop.height_m = static_cast<float>(capHeight(volume_m3, static_cast<double>(drop.base_radius_m)));
-  largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
 }
 
 int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m,
@@ -117,7 +136,6 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
   drop.heading = glm::vec2(glm::dvec2(std::cos(turn), std::sin(turn)));
   if (as_told) {
     drop.height_m = static_cast<float>(capHeight(cubicMetres(volume_pl), base_radius_m));
-    largest_radius_m_ = std::max(largest_radius_m_, base_radius_m);
   } else {
     settle(drop);
   }
@@ -166,7 +184,7 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
   const bool short_of_slots = impact.diameter_m < least_diameter_m, no_beads = !world.film.attached();
   if (slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0 || (short_of_slots && no_beads)) {
     // The splash's lamella spreads it over some five diameters.
-    world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres,
+    world.film.spread(impact.place_m, ForceField::metresAt(world.map, impact.place_m),
                       2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
     return true;
   }
@@ -197,14 +215,19 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
   return false;
 }
 
+double Drops::largestBead_m3(double texel_m2) const {
+  return shape_mean_ * std::pow(static_cast<double>(shared::kCrowded) * texel_m2 / std::numbers::pi, 1.5);
+}
+
 // A volume that a texel holds as a lone bead does not become a drop, where there is a film to hold it.
 bool Drops::lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl) {
   const int texel = world.map.texelAt(place_m);
   if (texel < 0 || !world.film.attached()) return false;
-  const double base_m2 =
-      static_cast<double>(shared::kCrowded) * static_cast<double>(world.map.texel(texel).area_m2);
-  const double largest_m3 = shape_mean_ * std::pow(base_m2 / std::numbers::pi, 1.5);
-  if (cubicMetres(volume_pl) > largest_m3) return false;
+  const double volume_m3 = cubicMetres(volume_pl);
+  if (volume_m3 > most_bead_m3_) return false;
+  if (volume_m3 > least_bead_m3_ &&
+      volume_m3 > largestBead_m3(static_cast<double>(world.map.texel(texel).area_m2)))
+    return false;
   world.film.addBeads(texel, volume_pl, 1);
   return true;
 }
@@ -213,7 +236,7 @@ bool Drops::lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume
 // of a Poisson process do.
 void Drops::shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl) {
   const double reach_m = lamellaRadius_m(impact);
-  const glm::dvec2 metres = world.forces.at(world.map, impact.place_m).metres;
+  const glm::dvec2 metres = ForceField::metresAt(world.map, impact.place_m);
   std::array<double, kFragments> upTo{};
   double sum = 0.0;
   uint32_t h = impact.hash;
@@ -276,7 +299,7 @@ void Drops::age(const DropWorld& world) {
     if (drowns) {
       const glm::dvec2 place = drop.place_m;
       const double radius_m = static_cast<double>(drop.base_radius_m);
-      world.film.spread(place, world.forces.at(world.map, place).metres,
+      world.film.spread(place, ForceField::metresAt(world.map, place),
                         1.5 * radius_m + world.map.grid().texel_m, remove(static_cast<int>(slot)));
       continue;
     }

@@ -102,6 +102,7 @@ class Drops {
   void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);
   void shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl);
+  double largestBead_m3(double texel_m2) const;
   bool lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl);
   void takeUnder(const DropWorld& world, int slot);
   int covering(const DropWorld& world, glm::dvec2 place_m) const;
@@ -109,19 +110,35 @@ class Drops {
   int unite(const DropWorld& world, int a, int b);
   void dry(const DropWorld& world, int slot);
   void settle(Drop& drop);
+  void fetchAbout(int slot) const;
+  void findWidest();
+  void noteWidth(const Drop& drop);
+  double widestAbout_m(glm::dvec2 place_m, glm::dvec2 reach_m) const;
+  template <class Met>
+  int firstAbout(const DropWorld& world, glm::dvec2 place_m, double beyond_m, const Met& met) const;
   void link(int slot);
   void unlink(int slot);
+  void moveTo(int slot, glm::dvec2 place_m);
+  glm::ivec2 cellAt(glm::dvec2 place_m) const;
   size_t cellOf(glm::dvec2 place_m) const;
 
   const PaneMap& map_;
   const Surface& surface_;
   Slots slots_;
-  std::vector<int32_t> cells_;             // first drop of each
+  struct Cell {
+    int32_t first = -1;     // of its drops
+    float widest_m = 0.0f;  // none of them has a greater radius
+  };
+  std::vector<Cell> cells_;
+  static constexpr int kBlock = 8;  // cells along a block's side
+  std::vector<float> widest_m_;     // of each block's drops none has a greater radius
+  glm::ivec2 block_count_{0};
   static constexpr double kCell_m = 8e-3;  // of the neighbour grid: few drops are wider
   glm::ivec2 cell_count_{0};
   std::vector<int32_t> changed_;
   uint32_t live_ = 0;
   double shape_advancing_, shape_receding_, shape_mean_;  // V / R^3 at these angles
+  double least_bead_m3_, most_bead_m3_;                   // that some texel holds alone, of all of them
   double hold_per_m_;                                     // retention for a metre of width, N/m
   double largest_radius_m_ = 0.0;
 };
