@@ -1,6 +1,7 @@
 // Drops that touch become one: mass and momentum are conserved.
 #include <algorithm>
 
+#include "glass/drop_shape.h"
 #include "glass/drops.h"
 
 namespace rg::glass {
@@ -45,11 +46,12 @@ void Drops::findWidest() {
 }
 
 void Drops::noteWidth(const Drop& drop) {
+  const float reach_m = halfLength_m(drop);
   const glm::ivec2 at = cellAt(drop.place_m), block = at / kBlock;
   for (float* widest_m : {&cells_[static_cast<size_t>(at.y * cell_count_.x + at.x)].widest_m,
                           &widest_m_[static_cast<size_t>(block.y * block_count_.x + block.x)]})
-    *widest_m = std::max(*widest_m, drop.base_radius_m);
-  largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
+    *widest_m = std::max(*widest_m, reach_m);
+  largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(reach_m));
 }
 
 double Drops::widestAbout_m(glm::dvec2 place_m, glm::dvec2 reach_m) const {
@@ -95,19 +97,22 @@ int Drops::firstAbout(const DropWorld& world, glm::dvec2 place_m, double beyond_
 // The first of those a drop touches; -1: none.
 int Drops::touching(const DropWorld& world, int slot) const {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const float radius_m = drop.base_radius_m;
-  return firstAbout(world, drop.place_m, static_cast<double>(radius_m),
+  const float half_m = halfLength_m(drop);
+  return firstAbout(world, drop.place_m, static_cast<double>(half_m),
                     [&](int other, const Drop& that, glm::dvec2 d) {
-                      const double near_m = kTouch * static_cast<double>(radius_m + that.base_radius_m);
-                      return other != slot && glm::dot(d, d) < near_m * near_m;
+                      const double apart2_m2 = glm::dot(d, d);
+                      double near_m = kTouch * static_cast<double>(half_m + halfLength_m(that));
+                      if (other == slot || apart2_m2 >= near_m * near_m) return false;
+                      near_m = kTouch * (reachTowards_m(drop, d) + reachTowards_m(that, d));
+                      return apart2_m2 < near_m * near_m;
                     });
 }
 
 // The first drop that a place lies in; -1: none.
 int Drops::covering(const DropWorld& world, glm::dvec2 place_m) const {
   return firstAbout(world, place_m, 0.0, [](int, const Drop& drop, glm::dvec2 d) {
-    const double radius_m = static_cast<double>(drop.base_radius_m);
-    return glm::dot(d, d) < radius_m * radius_m;
+    const double reach_m = reachTowards_m(drop, d);
+    return glm::dot(d, d) < reach_m * reach_m;
   });
 }
 
@@ -128,7 +133,10 @@ int Drops::unite(const DropWorld& world, int a, int b) {
   const double apart = std::clamp((distance_m + q - r) / (2.0 * q), 0.0, 1.0);
   if (longer > 1.05 && !large.moving) {
     const glm::dvec2 axis = distance_m > 0.0 ? between * metres / distance_m : glm::dvec2(large.heading);
-    if (static_cast<double>(large.elongation) < longer) large.heading = glm::vec2(axis);
+    if (static_cast<double>(large.elongation) < longer) {
+      large.heading = glm::vec2(axis);
+      large.corner = 0.0f;
+    }
     large.elongation =
         static_cast<float>(std::min(1.8, std::max(longer, 0.8 * static_cast<double>(large.elongation))));
   }
@@ -144,7 +152,6 @@ int Drops::unite(const DropWorld& world, int a, int b) {
   large.volume_pl += gained_pl;
   large.base_radius_m = static_cast<float>(std::sqrt(r * r + q * q * apart));
   noteWidth(large);
-  large.age_s = 0.0f;
   settle(large);
   return a;
 }

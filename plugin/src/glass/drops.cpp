@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "glass/drop_shape.h"
 #include "glass/random.h"
 #include "shared/glass_beads.glsl"
 #include "tick.h"
@@ -26,6 +27,26 @@ bool shatters(const Impact& impact) {
 
 }  // namespace
 
+double reachTowards_m(const Drop& drop, glm::dvec2 way_m) {
+  const double radius_m = static_cast<double>(drop.base_radius_m), e = static_cast<double>(drop.elongation);
+  const double length2_m2 = glm::dot(way_m, way_m);
+  if (drop.elongation == 1.0f || length2_m2 == 0.0) return radius_m;
+  const double along_m = glm::dot(way_m, glm::dvec2(drop.heading));
+  const double along = along_m * along_m / length2_m2;
+  return radius_m / std::sqrt(along / e + (1.0 - along) * e);
+}
+
+double widthAcross_m(const Drop& drop, glm::dvec2 along) {
+  const double cosine = glm::dot(along, glm::dvec2(drop.heading)), e = static_cast<double>(drop.elongation);
+  const double along2 = std::min(1.0, cosine * cosine);
+  return 2.0 * static_cast<double>(drop.base_radius_m) * std::sqrt(along2 / e + (1.0 - along2) * e);
+}
+
+float heightOf_m(const Drop& drop) {
+  return static_cast<float>(capHeight(cubicMetres(drop.volume_pl), static_cast<double>(drop.base_radius_m),
+                                      static_cast<double>(drop.elongation)));
+}
+
 Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
     : map_(map),
       surface_(surface),
@@ -35,7 +56,11 @@ Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
       shape_mean_(capShape(meanAngle(surface))),
       least_bead_m3_(largestBead_m3(map.leastTexel_m2())),
       most_bead_m3_(largestBead_m3(map.mostTexel_m2())),
-      hold_per_m_(retention_n(1.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad))) {
+      hold_per_m_(retention_n(1.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad))),
+      advancing_mps_(lineSpeed_mps(surface.advancing_rad)),
+      receding_mps_(lineSpeed_mps(surface.receding_rad)),
+      tan_half_advancing_(std::tan(0.5 * surface.advancing_rad)),
+      tan_half_receding_(std::tan(0.5 * surface.receding_rad)) {
   slots_.capacity_ = capacity;
   slots_.items.reserve(capacity);
   slots_.free.reserve(capacity);
@@ -105,7 +130,7 @@ void Drops::settle(Drop& drop) {
   }
   if (shape < shape_receding_)
     drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
-  drop.height_m = static_cast<float>(capHeight(volume_m3, static_cast<double>(drop.base_radius_m)));
+  drop.height_m = heightOf_m(drop);
 }
 
 int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m,
@@ -135,7 +160,7 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
       6.283185307179586 * static_cast<double>(shared::unitFloat(shared::pcg(seed ^ 0x51ed270bu)));
   drop.heading = glm::vec2(glm::dvec2(std::cos(turn), std::sin(turn)));
   if (as_told) {
-    drop.height_m = static_cast<float>(capHeight(cubicMetres(volume_pl), base_radius_m));
+    drop.height_m = heightOf_m(drop);
   } else {
     settle(drop);
   }
@@ -290,7 +315,6 @@ void Drops::age(const DropWorld& world) {
   for (size_t slot = phase; slot < slots_.items.size(); slot += kAgeStride) {
     Drop& drop = slots_.items[slot];
     if (drop.volume_pl == 0) continue;
-    drop.age_s += static_cast<float>(kAgeStride * kTickSeconds);
     const double film_m = world.film.thickness_m(drop.texel);
     // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
     const bool drowns = film_m > 2.0 * surface_.wetting_m &&
@@ -340,6 +364,8 @@ uint64_t Drops::hash(uint64_t start) const {
     mix(std::bit_cast<uint32_t>(drop.velocity_mps.x) |
         static_cast<uint64_t>(std::bit_cast<uint32_t>(drop.velocity_mps.y)) << 32);
     mix(std::bit_cast<uint32_t>(drop.base_radius_m) | static_cast<uint64_t>(drop.seed) << 32);
+    mix(std::bit_cast<uint32_t>(drop.elongation) | static_cast<uint64_t>(std::bit_cast<uint32_t>(drop.corner))
+                                                       << 32);
   }
   return h;
 }
