@@ -35,6 +35,26 @@ inline std::vector<rg::glass::PlacedDrop> dropsOnGlass(int number) {
   return placed;
 }
 
+// Marshall & Palmer's drops of 0.5 .. 6 mm, scaled to bring the rate (physics.md 1).
+inline void setRain(rg::glass::PaneTick& tick, double rate_mm_h) {
+  constexpr int kClasses = 32;
+  constexpr double kStep_mm = 5.5 / kClasses;
+  const double slope_per_mm = 4.1 * std::pow(rate_mm_h, -0.21);
+  double brought_mps = 0.0;
+  tick.class_count = kClasses;
+  for (int i = 0; i < kClasses; ++i) {
+    const double d_mm = 0.5 + (i + 0.5) * kStep_mm;
+    rg::glass::SizeClass& size = tick.classes[static_cast<size_t>(i)];
+    size.diameter_m = 1e-3 * d_mm;
+    size.number_per_m3 = 8000.0 * std::exp(-slope_per_mm * d_mm) * kStep_mm;
+    size.fall_speed_mps = 9.65 - 10.3 * std::exp(-0.6 * d_mm);
+    brought_mps +=
+        size.number_per_m3 * size.fall_speed_mps * std::numbers::pi / 6.0 * std::pow(size.diameter_m, 3.0);
+  }
+  for (int i = 0; i < kClasses; ++i)
+    tick.classes[static_cast<size_t>(i)].number_per_m3 *= rate_mm_h / 3.6e6 / brought_mps;
+}
+
 // Room for twice as many. Refers to static data.
 inline rg::glass::PaneInfo windscreenInfo(int drops) {
   static const glm::vec3 across(0.0f, -kWidth_m, 0.0f);

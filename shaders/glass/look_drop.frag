@@ -12,18 +12,19 @@ layout(location = 0) out vec4 color;
 
 const float kEnlarged = 0.25;  // of the way to the middle; so little that a blade stays whole (unsourced)
 
-// Merged drops and those on dirty glass are not round, and those that run narrow towards the tail. Maps the glass so that the outline
-// becomes the ellipse that is traced.
+// Of the outline at a place against the ellipse's; at a corner's tip nothing is left of it.
+float narrowing(SeenDrop drop, float along) { return max(cornered(along / drop.head_stretch.w, drop.cap_outline.w), 0.02); }
+
+// Merged drops and those on dirty glass are not round, and those that run are pointed. Maps the glass so that the outline becomes the ellipse
+// that is traced.
 vec2 straighten(SeenDrop drop, vec2 place) {
   float irregularity = drop.cap_outline.z;
-  float taper = drop.cap_outline.w;
-  if (irregularity + taper == 0.0) return place;
+  if (irregularity == 0.0 && drop.cap_outline.w == 0.0) return place;
   vec2 q = vec2(place.x / drop.head_stretch.w, place.y);
   float phase = drop.beside_phase.y;
   float angle = atan(q.y, q.x) + phase;
   float ragged = irregularity * (0.07 * cos(2.0 * angle + 1.7 * phase) + 0.05 * cos(3.0 * angle) + 0.025 * cos(5.0 * angle - phase));
-  float narrow = 1.0 - 0.5 * taper * smoothstep(0.6, -1.0, q.x);
-  return vec2(place.x, place.y / narrow) / (1.0 + ragged);
+  return vec2(place.x, place.y / narrowing(drop, place.x)) / (1.0 + ragged);
 }
 
 // Share of a footprint (edges dx, dy) about a place on the glass in which the drop is seen: over its base's outline, from the dry side, or over
@@ -68,12 +69,13 @@ void main() {
   vec2 dy = dFdy(base);
   int samples = int(drop.beside_phase.w);
   float count = float(samples);
+  vec2 narrow = vec2(1.0, 1.0 / narrowing(drop, base.x));  // what a pixel spans where the outline is an ellipse
   float cover = 0.0;
   vec2 middle = vec2(0.0);  // of the covered part: there the pixel's one ray goes
   for (int a = 0; a < samples * samples; ++a) {
     vec2 offset = (vec2(a % samples, a / samples) + 0.5) / count - 0.5;
     vec2 place = straighten(drop, base + dx * offset.x + dy * offset.y);
-    float share = coverage(cap, place, d, dx / count, dy / count);
+    float share = coverage(cap, place, d, dx * narrow / count, dy * narrow / count);
     cover += share;
     middle += share * place;
   }

@@ -115,11 +115,12 @@ void main() {
   float slope = shadow_length / steep;
   float irregularity = irregularityOf(drop);
   float pixel = pixel_m / radius_m;
-  float pad = 0.2 * irregularity + pixel / steep;
+  float wider = 0.2 * irregularity + kMostCornered * abs(drop.corner);
+  float pad = wider + pixel / steep;
   bool visible = inSight(frame.clip_from_eye * eye_position, 2.0 * radius_m * max(stretch, slope));
 
   float radius_px = radius_m / pixel_m;
-  bool small = visible && radius_px < kSmall_px;
+  bool small = visible && radius_px * sqrt(stretch) < kSmall_px;  // of a circle of the base's area
   vec4 light_weight = vec4(0.0);
   if (small) {
     vec3 light = meanLight(cap, place, view, frame.clip_from_eye * eye_position);
@@ -135,9 +136,9 @@ void main() {
   o.light_weight = light_weight;
   o.normal_reflections = vec4(place.normal, min(float(frame.internal_reflections), radius_px < kPlain_px ? 3.0 : 6.0));
   // A small drop's third number: how much wider than its ellipse the triangle is for the faded edge.
-  o.cap_outline = vec4(cap.centre_z, cap.radius, small ? 1.0 + 0.5 * pixel / steep : irregularity, smoothstep(0.0, 0.1, length(drop.velocity_mps)) * step(1.05, stretch));
+  o.cap_outline = vec4(cap.centre_z, cap.radius, small ? 1.0 + 0.5 * pixel / steep : irregularity, drop.corner);
   o.reach = vec4(shadow_length > 1e-4 ? shadow / shadow_length : vec2(1.0, 0.0), reach(cap, slope) + pad, reach(cap, -slope) + pad);
-  o.beside_phase = vec4((cap.centre_z > 0.0 ? cap.radius : 1.0) + 0.2 * irregularity + (small ? 0.0 : pixel), float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
+  o.beside_phase = vec4((cap.centre_z > 0.0 ? cap.radius : 1.0) + (small ? 0.0 : wider + pixel), float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
                         weight * weight, radius_m < frame.fine_radius_px * pixel_m ? 2.0 : 1.0);
   vec2 middle = vec2(0.0), along = vec2(1.0, 0.0), across = vec2(0.0, 1.0);
   if (small) {

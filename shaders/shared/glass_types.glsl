@@ -15,13 +15,13 @@ RG_CONST int kMaxGlassWipers = 8; // on one pane
 struct GlassDropRecord {
   vec2 position_m;         // middle of the wetted base
   vec2 velocity_mps;       // grid metres per second; 0 when it sticks
-  vec2 heading;            // unit, grid axes: the long axis of the base; a moving drop's head is there
+  vec2 heading;            // unit, grid axes: along the base
   float base_radius_m;     // of the circle of the base's area, real metres
-  float height_m;          // of the spherical cap of this base and volume
-  float contact_angle_rad; // of that cap
+  float height_m;          // of the cap of this base and volume: a spherical one as wide, stretched along the heading
+  float contact_angle_rad; // of a round cap as high over a base of this area
   float elongation;        // length : width of the base, >= 1
   uint seed;               // for an outline that is its own
-  float age_s;             // since it met the glass or last merged
+  float corner;            // 0: an ellipse .. 1: the end that its heading leaves is a corner, see cornered(); < 0: the other end is
 };
 RG_SIZE(GlassDropRecord, 48)
 

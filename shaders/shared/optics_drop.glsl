@@ -36,6 +36,15 @@ RG_FN Cap capOf(float contact_angle_rad, float stretch) {
   return cap;
 }
 
+// How much wider than its ellipse a drop is at a place along it, -1 (tail) .. 1 (head). As much wider before the middle as narrower behind it, so
+// that the base's area and the volume of any cap over it are the ellipse's. With corner 1 the tail is one, of tan(half its angle) =
+// sqrt(2) / elongation: for x = t - 1, t small, the ellipse is sqrt(2 t) wide and this sqrt(t).
+RG_FN float cornered(float along, float corner) {
+  float x = clamp(along, -1.0f, 1.0f);
+  return 1.0f + corner * x / (1.0f + sqrt(1.0f - abs(x)));
+}
+RG_CONST float kMostCornered = 0.13f; // of its half width a drop with a corner is wider than its ellipse, at most
+
 // Where the line p + t d meets the ellipsoid: t of entry and of exit, and in z the squared root's radicand (< 0: it misses).
 RG_FN vec3 meetCap(RG_IN(Cap) cap, RG_IN(vec3) p, RG_IN(vec3) d) {
   float inv = 1.0f / cap.stretch;

@@ -168,9 +168,8 @@ TEST_F(DropLaws, slidingSpeedIsLinearInBoAboveTheCriticalOne) {
     for (size_t i = 0; i < excess.size(); ++i)
       EXPECT_NEAR(speed_mps[i], slope * (excess[i] - threshold), 0.05 * speed_mps.back());
     EXPECT_NEAR(threshold, 0.0, 0.06);
-    // A moving drop is longer and so narrower than w.
-    EXPECT_GT(slope * drag_kg_s / threshold_n, 1.0);
-    EXPECT_LT(slope * drag_kg_s / threshold_n, 1.25);
+    // Some of its weight it leaves behind as film and pearls.
+    EXPECT_NEAR(slope * drag_kg_s / threshold_n, 1.0, 0.08);
   }
 }
 

@@ -139,7 +139,8 @@ TEST(SymmetryLawsInTheMean, windFromEitherSideDoesTheSame) {
     const double error = std::sqrt(variance * 2.0 / kScreens);
     std::printf("%.4f and %.4f mL, standard error %.4f\n", mean[0], mean[1], error);
     EXPECT_NEAR(mean[0], mean[1], kSure * error) << "term " << k;
-    EXPECT_LT(error, 0.1 * mean[0]) << "too little to tell, term " << k;
+    // A few drops of each screen run off below, those that became large enough before they were blown up.
+    EXPECT_LT(error, 0.2 * mean[0]) << "too little to tell, term " << k;
   }
 }
 

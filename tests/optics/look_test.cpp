@@ -101,7 +101,10 @@ TEST_F(Look, inAUniformWorldWaterIsInvisible) {
   pane.putFilm([](double u, double v) { return 60e-6 * (1.0 + std::sin(90.0 * u) * std::cos(70.0 * v)); });
   std::vector<GlassDropRecord> drops = scatter(pane, 150, 3e-3, glm::radians(35.0), 2);
   for (const GlassDropRecord& drop : scatter(pane, 150, 2e-3, glm::radians(95.0), 3)) drops.push_back(drop);
-  for (size_t k = 0; k < drops.size(); k += 3) drops[k].elongation = 1.8f;
+  for (size_t k = 0; k < drops.size(); k += 3) {
+    drops[k].elongation = 1.8f;
+    drops[k].corner = k % 2 == 0 ? 1.0f : -0.6f;
+  }
   // Left of the middle such as are seen one by one, right of it such as are not.
   pane.putBeads([](double u, double) { return u < 0.0 ? 2 : 40; }, 0.3, glm::radians(25.0));
   pane.putDrops(drops);

@@ -25,6 +25,30 @@ glm::dvec3 airByShape(const PaneMap& map, const PaneNode& node, const glm::dvec3
   return along + right_m * (shape.outward * into * node.across);
 }
 
+// Of a place between the corners of its tile.
+struct InTile {
+  size_t node;  // its first corner's
+  int row;      // from a corner to the next one up
+  glm::vec2 f;
+  InTile(const PaneMap& map, glm::dvec2 grid_m) : row(map.nodeCount().x) {
+    const glm::vec2 place = glm::clamp(glm::vec2(grid_m / (map.grid().texel_m * shared::kTileSize)),
+                                       glm::vec2(0.0f), glm::vec2(map.nodeCount() - 1) - 1e-3f);
+    const glm::ivec2 cell(place);
+    f = place - glm::vec2(cell);
+    node = static_cast<size_t>(cell.y * row + cell.x);
+  }
+  glm::vec2 mix(glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) const {
+    return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y);
+  }
+  glm::dvec2 metres(const PaneMap& map) const {
+    const shared::vec4* metric = &map.nodeMetric()[node];
+    const shared::vec4* next = metric + row;
+    return glm::dvec2(
+               mix(shared::xy(metric[0]), shared::xy(metric[1]), shared::xy(next[0]), shared::xy(next[1]))) /
+           map.grid().texel_m;
+  }
+};
+
 }  // namespace
 
 glm::dvec3 AirflowField::at(double across, double height) const {
@@ -62,38 +86,50 @@ void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, c
   slid_m_ = slid_m;
   const glm::dvec2 slid = map.acrossAndHeight(slid_m);
   nodes_.resize(map.nodes().size());
-  most_acceleration_mps2_ = most_air_mps_ = 0.0;
   for (size_t i = 0; i < nodes_.size(); ++i) {
     PaneNode node = map.nodes()[i];
     node.across = std::clamp(node.across + slid.x, -1.0, 1.0);
     node.height = std::clamp(node.height + slid.y, 0.0, 1.0);
     nodes_[i].acceleration = glm::vec2(PaneMap::alongGlass(node, acceleration_mps2));
     nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps, airflow_)));
-    most_acceleration_mps2_ =
-        std::max(most_acceleration_mps2_, static_cast<double>(glm::length(nodes_[i].acceleration)));
-    most_air_mps_ = std::max(most_air_mps_, static_cast<double>(glm::length(nodes_[i].air)));
+  }
+  findMost(map);
+}
+
+void ForceField::findMost(const PaneMap& map) {
+  std::vector<Most> corners;
+  corners.reserve(nodes_.size());
+  for (const NodePush& node : nodes_)
+    corners.push_back({glm::length(node.acceleration), glm::length(node.air)});
+  const auto either = [](const Most& a, const Most& b) {
+    return Most{std::max(a.acceleration_mps2, b.acceleration_mps2), std::max(a.air_mps, b.air_mps)};
+  };
+  const glm::ivec2 count = map.nodeCount();
+  tiles_.resize(nodes_.size());  // a tile has its first corner's number
+  for (int y = 0; y + 1 < count.y; ++y) {
+    for (int x = 0; x + 1 < count.x; ++x) {
+      const Most* corner = &corners[static_cast<size_t>(y * count.x + x)];
+      tiles_[static_cast<size_t>(y * count.x + x)] =
+          either(either(corner[0], corner[1]), either(corner[count.x], corner[count.x + 1]));
+    }
   }
 }
 
+const ForceField::Most& ForceField::mostAbout(const PaneMap& map, glm::dvec2 grid_m) const {
+  return tiles_[InTile(map, grid_m).node];
+}
+
 Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {
-  const glm::ivec2 count = map.nodeCount();
-  const glm::vec2 place = glm::clamp(glm::vec2(grid_m / (map.grid().texel_m * shared::kTileSize)),
-                                     glm::vec2(0.0f), glm::vec2(count - 1) - 1e-3f);
-  const glm::ivec2 cell(place);
-  const glm::vec2 f = place - glm::vec2(cell);
-  const NodePush* row = &nodes_[static_cast<size_t>(cell.y * count.x + cell.x)];
-  const NodePush* next = row + count.x;
-  const auto mix4 = [&f](glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
-    return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y);
-  };
-  const shared::vec4* metric = &map.nodeMetric()[static_cast<size_t>(cell.y * count.x + cell.x)];
-  const shared::vec4* metric_next = metric + count.x;
-  return {
-      glm::dvec2(mix4(row[0].acceleration, row[1].acceleration, next[0].acceleration, next[1].acceleration)),
-      glm::dvec2(mix4(row[0].air, row[1].air, next[0].air, next[1].air)),
-      glm::dvec2(mix4(shared::xy(metric[0]), shared::xy(metric[1]), shared::xy(metric_next[0]),
-                      shared::xy(metric_next[1]))) /
-          map.grid().texel_m};
+  const InTile in(map, grid_m);
+  const NodePush* row = &nodes_[in.node];
+  const NodePush* next = row + in.row;
+  return {glm::dvec2(
+              in.mix(row[0].acceleration, row[1].acceleration, next[0].acceleration, next[1].acceleration)),
+          glm::dvec2(in.mix(row[0].air, row[1].air, next[0].air, next[1].air)), in.metres(map)};
+}
+
+glm::dvec2 ForceField::metresAt(const PaneMap& map, glm::dvec2 grid_m) {
+  return InTile(map, grid_m).metres(map);
 }
 
 glm::dvec2 ForceField::shear_pa(const glm::dvec2& air_mps) const {

@@ -50,23 +50,27 @@ class ForceField {
   void setAirflow(Airflow airflow);  // of the next make()
   void clear() { nodes_.clear(); }   // the airflow stays
   Push at(const PaneMap& map, glm::dvec2 grid_m) const;
+  static glm::dvec2 metresAt(const PaneMap& map, glm::dvec2 grid_m);  // Push's alone
   // What air of this velocity just above it does to water's surface: tau = rho_a C_f U^2 / 2 along it.
   glm::dvec2 shear_pa(const glm::dvec2& air_mps) const;
   // Per node, for the film: xy acceleration, zw shear stress.
   std::vector<shared::vec4> filmDrive() const;
   bool empty() const { return nodes_.empty(); }
-  // Nowhere on the pane is either greater: what lies between nodes is a mean of theirs.
-  double mostAcceleration_mps2() const { return most_acceleration_mps2_; }
-  double mostAir_mps() const { return most_air_mps_; }
+  // Nowhere in the place's tile is either greater: what lies between nodes is a mean of theirs.
+  struct Most {
+    float acceleration_mps2 = 0.0f, air_mps = 0.0f;
+  };
+  const Most& mostAbout(const PaneMap& map, glm::dvec2 grid_m) const;
 
  private:
+  void findMost(const PaneMap& map);
   struct NodePush {
     glm::vec2 acceleration, air;
   };
   Airflow airflow_;
   std::vector<NodePush> nodes_;
   glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0}, slid_m_{0.0};
-  double most_acceleration_mps2_ = 0.0, most_air_mps_ = 0.0;
+  std::vector<Most> tiles_;
 };
 
 }  // namespace rg::glass

@@ -122,7 +122,9 @@ void Blades::meet(const DropWorld& world, Drops& drops, const Wiper& wiper, cons
   const bool small = base.count < 2;  // than a texel
   if (small && std::abs(c.along_m[k]) > 0.5 * wiper.info().blade_m) return;
 
-  const double above_m3 = capVolumeAbove(static_cast<double>(drop.height_m), radius_m, wiper.info().lift_m);
+  const double e = static_cast<double>(drop.elongation);
+  const double above_m3 =
+      e * capVolumeAbove(static_cast<double>(drop.height_m), radius_m / std::sqrt(e), wiper.info().lift_m);
   const int64_t taken_pl = drops.cut(slot, std::min(picolitres(above_m3), drop.volume_pl));
   const auto ahead_rad = [&](int texel) {
     return wiper.ahead_rad(glm::dvec3(world.map.texel(texel).position_m), sweep, c.angle_rad[k]);

@@ -2,6 +2,7 @@
 // water behind.
 #include <algorithm>
 
+#include "glass/drop_shape.h"
 #include "glass/drops.h"
 #include "glass/random.h"
 #include "tick.h"
@@ -19,12 +20,22 @@ constexpr int kMostAside = 2;     // texels
 
 // Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
 // "depinning by wind".
-glm::dvec2 drag_n(const Drop& drop, glm::dvec2 air_mps, double width_m) {
-  const double height_m = static_cast<double>(drop.height_m);
-  const double speed = glm::length(air_mps) * std::pow(std::min(1.0, height_m / kBoundaryLayer_m), 1.0 / 7.0);
-  const double outline_m2 = 2.0 / 3.0 * height_m * width_m;
-  return 0.5 * kRhoAir_kg_m3 * outline_m2 * speed * glm::length(air_mps) * air_mps /
-         std::max(1e-9, glm::length(air_mps));
+struct Drag {
+  double height_m, profile;  // of the free air's speed at the cap's height
+  explicit Drag(const Drop& drop) : height_m(static_cast<double>(drop.height_m)) {
+    profile = std::pow(std::min(1.0, height_m / kBoundaryLayer_m), 1.0 / 7.0);
+  }
+  double perSquare_n(double width_m) const {  // of air of 1 m/s
+    return 0.5 * kRhoAir_kg_m3 * (2.0 / 3.0 * height_m * width_m) * profile;
+  }
+};
+
+// Axes have no sign: twice their angle tells them apart, and half of it is one of two directions.
+glm::dvec2 twiceTurned(glm::dvec2 v) { return {v.x * v.x - v.y * v.y, 2.0 * v.x * v.y}; }
+glm::dvec2 halfTurned(glm::dvec2 v, glm::dvec2 near) {
+  const glm::dvec2 half(1.0 + v.x, v.y);
+  const glm::dvec2 axis = v.x > -1.0 + 1e-12 ? glm::normalize(half) : glm::dvec2(0.0, 1.0);
+  return glm::dot(axis, near) < 0.0 ? -axis : axis;
 }
 
 }  // namespace
@@ -39,10 +50,12 @@ void Drops::move(const DropWorld& world) {
   }
 }
 
-// Not where even the greatest forces of the pane together are too weak: most drops, most of the time.
+// Not where even the greatest forces of its tile together are too weak: most drops, most of the time.
 bool Drops::mayMove(const DropWorld& world, const Drop& drop) {
   if (!drop.braced) return true;
-  const double acceleration = world.forces.mostAcceleration_mps2(), air = world.forces.mostAir_mps();
+  const ForceField::Most& most = world.forces.mostAbout(world.map, drop.place_m);
+  const double acceleration = static_cast<double>(most.acceleration_mps2),
+               air = static_cast<double>(most.air_mps);
   constexpr double kRounding = 0.999;  // of floats
   return static_cast<double>(drop.acceleration_s2_m) * acceleration +
              static_cast<double>(drop.air2_s2_m2) * air * air >
@@ -52,21 +65,28 @@ bool Drops::mayMove(const DropWorld& world, const Drop& drop) {
 void Drops::slide(const DropWorld& world, int slot) {
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const Push push = world.forces.at(world.map, drop.place_m);
-  const double width_m =
-      2.0 * static_cast<double>(drop.base_radius_m) / std::sqrt(static_cast<double>(drop.elongation));
+  // What holds and what slows it goes by the base's size, not by its outline: k = 24 / pi^3 was measured on
+  // drops as long as they come to be at rest, and the speed stays linear in Bo as drops grow long and pointed
+  // (Le Grand, Daerr & Limat 2005).
+  const double width_m = 2.0 * static_cast<double>(drop.base_radius_m);
   const double mass_kg = kRho_kg_m3 * cubicMetres(drop.volume_pl);
-  const glm::dvec2 force_n = mass_kg * push.acceleration_mps2 + drag_n(drop, push.air_mps, width_m);
+  const Drag drag(drop);
+  const double air = glm::length(push.air_mps);
+  const double facing_m = air > 0.0 ? widthAcross_m(drop, push.air_mps / air) : 0.0;
+  const glm::dvec2 force_n =
+      mass_kg * push.acceleration_mps2 + drag.perSquare_n(facing_m) * air * push.air_mps;
   const double force = glm::length(force_n);
   const double hold_n = hold_per_m_ * width_m;
+  const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
   if (!drop.moving && force <= hold_n) {
-    drop.braced = true;
+    drop.braced = reshape(drop, toward, force, 0.0, kRestStride * kTickSeconds);
     drop.acceleration_s2_m = static_cast<float>(mass_kg / hold_n);
-    drop.air2_s2_m2 = static_cast<float>(glm::length(drag_n(drop, {1.0, 0.0}, width_m)) / hold_n);
+    drop.air2_s2_m2 =  // at most, which is from its side
+        static_cast<float>(drag.perSquare_n(2.0 * static_cast<double>(halfLength_m(drop))) / hold_n);
     return;
   }
   drop.braced = false;
 
-  const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
   // Uneven glass: a turn of the path that depends on the place alone.
   const double turn = kMeander * static_cast<double>(shared::unevenness(world.glass.level(drop.texel)));
   const glm::dvec2 path = (toward + turn * glm::dvec2(-toward.y, toward.x)) / std::sqrt(1.0 + turn * turn);
@@ -82,18 +102,13 @@ void Drops::slide(const DropWorld& world, int slot) {
   if (speed < 1e-5) return;
 
   const glm::dvec2 from_m = drop.place_m;
-  unlink(slot);
-  drop.place_m += velocity / push.metres * kTickSeconds;
-  link(slot);
-  drop.heading = glm::vec2(velocity / speed);
-  // Round at rest, twice as long as wide at 0.3 m/s: between the corner and the pearls of Le Grand, Daerr &
-  // Limat 2005 (value by eye).
-  const double longer = 1.0 + std::min(1.5, speed / 0.3);
-  drop.elongation += static_cast<float>((longer - static_cast<double>(drop.elongation)) * ease);
+  moveTo(slot, from_m + velocity / push.metres * kTickSeconds);
+  const glm::dvec2 ahead = velocity / speed;
+  reshape(drop, ahead, force, speed, kTickSeconds);
   const int texel = world.map.texelAt(drop.place_m);
   if (overEdge(world, slot, texel)) return;
   if (texel != drop.texel) {
-    takeOnTheWay(world, slot, from_m, width_m);
+    takeOnTheWay(world, slot, from_m, ahead, widthAcross_m(drop, ahead));
     drop.texel = texel;
   }
   if (!drop.changed) changed_.push_back(slot);
@@ -101,8 +116,47 @@ void Drops::slide(const DropWorld& world, int slot) {
   leaveTrail(world, drop, speed * kTickSeconds, speed, push.metres);
 }
 
+// A base comes to the length and tail that its motion wants as it goes its own radius, or as its contact line
+// does by itself. What rests is pinned: it grows longer, but shorter only as far as the line recedes, and
+// loses its corner as it does. Two lengths at an angle add up as strains do, each with twice its angle.
+// Whether it has come there.
+bool Drops::reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_mps, double seconds) {
+  const double radius_m = static_cast<double>(drop.base_radius_m);
+  const double longer = static_cast<double>(drop.elongation) - 1.0;
+  const double at_rest = lengthAtRest(force_n, cubicMetres(drop.volume_pl), radius_m);
+  const double with_corner = lengthWithCorner(speed_mps, receding_mps_);
+  const glm::dvec2 heading(drop.heading);
+  double wanted = std::max(at_rest, with_corner) - 1.0;
+  // A tail that has become the head, as the wind turned, goes by way of a round one.
+  const double corner = std::copysign(with_corner / (1.0 + wanted), glm::dot(heading, along));
+  if (!drop.moving && wanted < longer) {
+    const double pinned =
+        longestPinned(static_cast<double>(drop.height_m), radius_m, tan_half_receding_, tan_half_advancing_);
+    wanted = std::max(wanted, std::min(longer, pinned - 1.0));
+    along = heading;
+  }
+  const glm::dvec2 now = longer * twiceTurned(heading), aim = wanted * twiceTurned(along);
+  const double corner_off = corner - static_cast<double>(drop.corner);
+  constexpr double kThere = 0.01;
+  if (glm::length(aim - now) < kThere && std::abs(corner_off) < kThere) return true;
+
+  const auto share = [&](bool grows) {
+    const double line_mps = grows ? advancing_mps_ : receding_mps_;
+    return 1.0 - std::exp(-seconds * (speed_mps + line_mps) / radius_m);
+  };
+  const glm::dvec2 strain = now + (aim - now) * share(wanted > longer);
+  const double length = glm::length(strain);
+  drop.elongation = static_cast<float>(1.0 + length);
+  if (length > 1e-6) drop.heading = glm::vec2(halfTurned(strain / length, heading));
+  drop.corner += static_cast<float>(corner_off * share(std::abs(corner) > std::abs(corner - corner_off)));
+  drop.height_m = heightOf_m(drop);
+  noteWidth(drop);
+  return false;
+}
+
 // A fast drop passes more than a texel in a tick.
-void Drops::takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, double width_m) {
+void Drops::takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, glm::dvec2 ahead,
+                         double width_m) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const glm::dvec2 way_m = drop.place_m - from_m;
   const double steps = std::ceil(glm::length(way_m) / world.map.grid().texel_m);
@@ -110,16 +164,17 @@ void Drops::takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, do
   for (double step = 1.0; step <= steps; ++step) {
     const glm::dvec2 place_m = from_m + way_m * (step / steps);
     const int texel = world.map.texelAt(place_m);
-    if (texel >= 0 && texel != last) takeAcross(world, slot, place_m, width_m);
+    if (texel >= 0 && texel != last) takeAcross(world, slot, place_m, ahead, width_m);
     last = texel;
   }
 }
 
 // What lies across its way at a place: as far to both sides as it is wide.
-void Drops::takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, double width_m) {
+void Drops::takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm::dvec2 ahead,
+                       double width_m) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double texel_m = world.map.grid().texel_m;
-  const glm::dvec2 side(-drop.heading.y, drop.heading.x);
+  const glm::dvec2 side(-ahead.y, ahead.x);
   const int reach = std::min(static_cast<int>(0.5 * width_m / texel_m + 0.5), kMostAside);
   for (int k = -reach; k <= reach; ++k) {
     const int texel = world.map.texelAt(place_m + k * texel_m * side);
@@ -134,7 +189,8 @@ void Drops::takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, dou
 bool Drops::overEdge(const DropWorld& world, int slot, int texel) {
   if (texel >= 0) return false;
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const bool upward = glm::dot(glm::dvec2(drop.heading), world.map.up()) > 0.5;
+  const bool upward = glm::dot(glm::dvec2(drop.velocity_mps), world.map.up()) >
+                      0.5 * static_cast<double>(glm::length(drop.velocity_mps));
   (upward ? world.ledger.blown_pl : world.ledger.drained_pl) += remove(slot);
   return true;
 }
@@ -149,8 +205,10 @@ void Drops::leaveTrail(const DropWorld& world, Drop& drop, double way_m, double 
     drop.volume_pl -= film_pl;
     world.film.add(drop.texel, passed(LeakyKernel::trail, film_pl));
   }
-  drop.since_pearl_m += static_cast<float>(way_m);
-  leavePearl(world, drop, metres);
+  if (speed_mps > kPearling * receding_mps_) {
+    drop.since_pearl_m += static_cast<float>(way_m);
+    leavePearl(world, drop, metres);
+  }
   settle(drop);
 }
 
@@ -167,9 +225,7 @@ void Drops::leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres) {
   const double mean_rad = 0.5 * (surface_.advancing_rad + surface_.receding_rad);
   const int64_t pearl_pl = picolitres(capShape(mean_rad) * radius_m * radius_m * radius_m);
   if (pearl_pl > drop.volume_pl / 20 || pearl_pl < 200) return;
-  const double back_m =
-      static_cast<double>(drop.base_radius_m) * std::sqrt(static_cast<double>(drop.elongation)) +
-      1.5 * radius_m;
+  const double back_m = static_cast<double>(halfLength_m(drop)) + 1.5 * radius_m;
   const glm::dvec2 heading(drop.heading);
   const double aside = (static_cast<double>(shared::unitFloat(shared::pcg(h + 1u))) - 0.5) *
                        static_cast<double>(drop.base_radius_m);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "glass/drop_shape.h"
 #include "glass/random.h"
 #include "shared/glass_beads.glsl"
 #include "tick.h"
@@ -26,6 +27,26 @@ bool shatters(const Impact& impact) {
 
 }  // namespace
 
+double reachTowards_m(const Drop& drop, glm::dvec2 way_m) {
+  const double radius_m = static_cast<double>(drop.base_radius_m), e = static_cast<double>(drop.elongation);
+  const double length2_m2 = glm::dot(way_m, way_m);
+  if (drop.elongation == 1.0f || length2_m2 == 0.0) return radius_m;
+  const double along_m = glm::dot(way_m, glm::dvec2(drop.heading));
+  const double along = along_m * along_m / length2_m2;
+  return radius_m / std::sqrt(along / e + (1.0 - along) * e);
+}
+
+double widthAcross_m(const Drop& drop, glm::dvec2 along) {
+  const double cosine = glm::dot(along, glm::dvec2(drop.heading)), e = static_cast<double>(drop.elongation);
+  const double along2 = std::min(1.0, cosine * cosine);
+  return 2.0 * static_cast<double>(drop.base_radius_m) * std::sqrt(along2 / e + (1.0 - along2) * e);
+}
+
+float heightOf_m(const Drop& drop) {
+  return static_cast<float>(capHeight(cubicMetres(drop.volume_pl), static_cast<double>(drop.base_radius_m),
+                                      static_cast<double>(drop.elongation)));
+}
+
 Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
     : map_(map),
       surface_(surface),
@@ -33,18 +54,27 @@ Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
       shape_advancing_(capShape(surface.advancing_rad)),
       shape_receding_(capShape(surface.receding_rad)),
       shape_mean_(capShape(meanAngle(surface))),
-      hold_per_m_(retention_n(1.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad))) {
+      least_bead_m3_(largestBead_m3(map.leastTexel_m2())),
+      most_bead_m3_(largestBead_m3(map.mostTexel_m2())),
+      hold_per_m_(retention_n(1.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad))),
+      advancing_mps_(lineSpeed_mps(surface.advancing_rad)),
+      receding_mps_(lineSpeed_mps(surface.receding_rad)),
+      tan_half_advancing_(std::tan(0.5 * surface.advancing_rad)),
+      tan_half_receding_(std::tan(0.5 * surface.receding_rad)) {
   slots_.capacity_ = capacity;
   slots_.items.reserve(capacity);
   slots_.free.reserve(capacity);
-  cells_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), -1);
+  cells_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), {});
+  block_count_ = (cell_count_ + (kBlock - 1)) / kBlock;
+  widest_m_.assign(static_cast<size_t>(block_count_.x * block_count_.y), 0.0f);
 }
 
 void Drops::clear() {
   slots_.items.clear();
   slots_.free.clear();
   changed_.clear();
-  std::fill(cells_.begin(), cells_.end(), -1);
+  std::fill(cells_.begin(), cells_.end(), Cell{});
+  std::fill(widest_m_.begin(), widest_m_.end(), 0.0f);
   live_ = 0;
   largest_radius_m_ = 0.0;
 }
@@ -55,23 +85,36 @@ int64_t Drops::volume_pl() const {
   return sum;
 }
 
+glm::ivec2 Drops::cellAt(glm::dvec2 place_m) const {
+  return glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
+}
+
 size_t Drops::cellOf(glm::dvec2 place_m) const {
-  const glm::ivec2 cell = glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
+  const glm::ivec2 cell = cellAt(place_m);
   return static_cast<size_t>(cell.y * cell_count_.x + cell.x);
 }
 
 void Drops::link(int slot) {
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  int32_t& first = cells_[cellOf(drop.place_m)];
-  drop.next = first;
-  first = slot;
+  Cell& cell = cells_[cellOf(drop.place_m)];
+  drop.next = cell.first;
+  cell.first = slot;
+  noteWidth(drop);
 }
 
 void Drops::unlink(int slot) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  int32_t* at = &cells_[cellOf(drop.place_m)];
+  int32_t* at = &cells_[cellOf(drop.place_m)].first;
   while (*at != slot) at = &slots_.items[static_cast<size_t>(*at)].next;
   *at = drop.next;
+}
+
+void Drops::moveTo(int slot, glm::dvec2 place_m) {
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const bool stays = cellOf(place_m) == cellOf(drop.place_m);
+  if (!stays) unlink(slot);
+  drop.place_m = place_m;
+  if (!stays) link(slot);
 }
 
 // A contact line moves where the angle would leave the range between receding and advancing; otherwise it is
@@ -81,12 +124,13 @@ void Drops::settle(Drop& drop) {
   const double volume_m3 = cubicMetres(drop.volume_pl);
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double shape = volume_m3 / (radius_m * radius_m * radius_m);
-  if (!(shape <= shape_advancing_))
+  if (!(shape <= shape_advancing_)) {
     drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_advancing_));
+    noteWidth(drop);
+  }
   if (shape < shape_receding_)
     drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
-  drop.height_m = static_cast<float>(capHeight(volume_m3, static_cast<double>(drop.base_radius_m)));
-  largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(drop.base_radius_m));
+  drop.height_m = heightOf_m(drop);
 }
 
 int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m,
@@ -116,8 +160,7 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
       6.283185307179586 * static_cast<double>(shared::unitFloat(shared::pcg(seed ^ 0x51ed270bu)));
   drop.heading = glm::vec2(glm::dvec2(std::cos(turn), std::sin(turn)));
   if (as_told) {
-    drop.height_m = static_cast<float>(capHeight(cubicMetres(volume_pl), base_radius_m));
-    largest_radius_m_ = std::max(largest_radius_m_, base_radius_m);
+    drop.height_m = heightOf_m(drop);
   } else {
     settle(drop);
   }
@@ -166,7 +209,7 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
   const bool short_of_slots = impact.diameter_m < least_diameter_m, no_beads = !world.film.attached();
   if (slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0 || (short_of_slots && no_beads)) {
     // The splash's lamella spreads it over some five diameters.
-    world.film.spread(impact.place_m, world.forces.at(world.map, impact.place_m).metres,
+    world.film.spread(impact.place_m, ForceField::metresAt(world.map, impact.place_m),
                       2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m, volume_pl);
     return true;
   }
@@ -197,14 +240,19 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
   return false;
 }
 
+double Drops::largestBead_m3(double texel_m2) const {
+  return shape_mean_ * std::pow(static_cast<double>(shared::kCrowded) * texel_m2 / std::numbers::pi, 1.5);
+}
+
 // A volume that a texel holds as a lone bead does not become a drop, where there is a film to hold it.
 bool Drops::lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl) {
   const int texel = world.map.texelAt(place_m);
   if (texel < 0 || !world.film.attached()) return false;
-  const double base_m2 =
-      static_cast<double>(shared::kCrowded) * static_cast<double>(world.map.texel(texel).area_m2);
-  const double largest_m3 = shape_mean_ * std::pow(base_m2 / std::numbers::pi, 1.5);
-  if (cubicMetres(volume_pl) > largest_m3) return false;
+  const double volume_m3 = cubicMetres(volume_pl);
+  if (volume_m3 > most_bead_m3_) return false;
+  if (volume_m3 > least_bead_m3_ &&
+      volume_m3 > largestBead_m3(static_cast<double>(world.map.texel(texel).area_m2)))
+    return false;
   world.film.addBeads(texel, volume_pl, 1);
   return true;
 }
@@ -213,7 +261,7 @@ bool Drops::lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume
 // of a Poisson process do.
 void Drops::shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl) {
   const double reach_m = lamellaRadius_m(impact);
-  const glm::dvec2 metres = world.forces.at(world.map, impact.place_m).metres;
+  const glm::dvec2 metres = ForceField::metresAt(world.map, impact.place_m);
   std::array<double, kFragments> upTo{};
   double sum = 0.0;
   uint32_t h = impact.hash;
@@ -267,7 +315,6 @@ void Drops::age(const DropWorld& world) {
   for (size_t slot = phase; slot < slots_.items.size(); slot += kAgeStride) {
     Drop& drop = slots_.items[slot];
     if (drop.volume_pl == 0) continue;
-    drop.age_s += static_cast<float>(kAgeStride * kTickSeconds);
     const double film_m = world.film.thickness_m(drop.texel);
     // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
     const bool drowns = film_m > 2.0 * surface_.wetting_m &&
@@ -276,7 +323,7 @@ void Drops::age(const DropWorld& world) {
     if (drowns) {
       const glm::dvec2 place = drop.place_m;
       const double radius_m = static_cast<double>(drop.base_radius_m);
-      world.film.spread(place, world.forces.at(world.map, place).metres,
+      world.film.spread(place, ForceField::metresAt(world.map, place),
                         1.5 * radius_m + world.map.grid().texel_m, remove(static_cast<int>(slot)));
       continue;
     }
@@ -317,6 +364,8 @@ uint64_t Drops::hash(uint64_t start) const {
     mix(std::bit_cast<uint32_t>(drop.velocity_mps.x) |
         static_cast<uint64_t>(std::bit_cast<uint32_t>(drop.velocity_mps.y)) << 32);
     mix(std::bit_cast<uint32_t>(drop.base_radius_m) | static_cast<uint64_t>(drop.seed) << 32);
+    mix(std::bit_cast<uint32_t>(drop.elongation) | static_cast<uint64_t>(std::bit_cast<uint32_t>(drop.corner))
+                                                       << 32);
   }
   return h;
 }

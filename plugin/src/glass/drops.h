@@ -2,6 +2,7 @@
 // only ever move from one place to another.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -16,30 +17,38 @@
 
 namespace rg::glass {
 
-// In thirds of 32 bytes, none of them across two lines of the cache: where it is and how wide, all that a
-// neighbour asks; whether it moves, asked of each drop in each tick; the rest.
+// In thirds of 32 bytes, none of them across two lines of the cache: where it is and how wide, nearly all
+// that a neighbour asks; whether it moves, asked of each drop in each tick; the rest.
 struct alignas(32) Drop {
   glm::dvec2 place_m{0.0};     // grid metres
-  int64_t volume_pl = 0;       // 0: the slot is free
-  float base_radius_m = 0.0f;  // real
+  float base_radius_m = 0.0f;  // of a circle of the base's area, real
+  float elongation = 1.0f;     // length over width of the base, an ellipse; see drop_shape.h
   int32_t next = -1;           // in its cell's list
+  float corner = 0.0f;         // at the end its heading leaves, see shared::cornered; < 0: at the other
 
+  int64_t volume_pl = 0;  // 0: the slot is free
   bool moving = false;
-  bool braced = false;             // the two below hold: it rests and has its size of then
+  bool braced = false;             // the two below hold: it rests and has its size and shape of then
   bool changed = false;            // has to be looked at for neighbours it touches
   float acceleration_s2_m = 0.0f;  // share of what holds it that an acceleration of 1 m/s^2 takes
   float air2_s2_m2 = 0.0f;         // ... and air of 1 m/s, with its square
   int32_t texel = 0;
-  glm::vec2 velocity_mps{0.0f};  // real, grid axes
-  glm::vec2 heading{1.0f, 0.0f};
+  glm::vec2 heading{1.0f, 0.0f};  // along the base
 
+  glm::vec2 velocity_mps{0.0f};  // real, grid axes
   float height_m = 0.0f;
-  float elongation = 1.0f;
   float since_pearl_m = 0.0f;  // way since it last left a droplet behind
-  float age_s = 0.0f;
   uint32_t seed = 0;
   uint32_t life = 0;  // counts the drops that had this slot
 };
+
+inline float halfLength_m(const Drop& drop) { return drop.base_radius_m * std::sqrt(drop.elongation); }
+// From the middle of the base to its outline, along a vector.
+double reachTowards_m(const Drop& drop, glm::dvec2 way_m);
+// How wide the base is, seen along a unit vector.
+double widthAcross_m(const Drop& drop, glm::dvec2 along);
+// Of the cap of its base and volume.
+float heightOf_m(const Drop& drop);
 
 // What drops of a pane have in common during a tick.
 struct DropWorld {
@@ -96,12 +105,14 @@ class Drops {
   };
   void slide(const DropWorld& world, int slot);
   static bool mayMove(const DropWorld& world, const Drop& drop);
+  bool reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_mps, double seconds);
   void leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres);
   void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres);
-  void takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, double width_m);
-  void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, double width_m);
+  void takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, glm::dvec2 ahead, double width_m);
+  void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm::dvec2 ahead, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);
   void shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl);
+  double largestBead_m3(double texel_m2) const;
   bool lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl);
   void takeUnder(const DropWorld& world, int slot);
   int covering(const DropWorld& world, glm::dvec2 place_m) const;
@@ -109,20 +120,38 @@ class Drops {
   int unite(const DropWorld& world, int a, int b);
   void dry(const DropWorld& world, int slot);
   void settle(Drop& drop);
+  void fetchAbout(int slot) const;
+  void findWidest();
+  void noteWidth(const Drop& drop);
+  double widestAbout_m(glm::dvec2 place_m, glm::dvec2 reach_m) const;
+  template <class Met>
+  int firstAbout(const DropWorld& world, glm::dvec2 place_m, double beyond_m, const Met& met) const;
   void link(int slot);
   void unlink(int slot);
+  void moveTo(int slot, glm::dvec2 place_m);
+  glm::ivec2 cellAt(glm::dvec2 place_m) const;
   size_t cellOf(glm::dvec2 place_m) const;
 
   const PaneMap& map_;
   const Surface& surface_;
   Slots slots_;
-  std::vector<int32_t> cells_;             // first drop of each
+  struct Cell {
+    int32_t first = -1;     // of its drops
+    float widest_m = 0.0f;  // none of them has a greater radius
+  };
+  std::vector<Cell> cells_;
+  static constexpr int kBlock = 8;  // cells along a block's side
+  std::vector<float> widest_m_;     // of each block's drops none has a greater radius
+  glm::ivec2 block_count_{0};
   static constexpr double kCell_m = 8e-3;  // of the neighbour grid: few drops are wider
   glm::ivec2 cell_count_{0};
   std::vector<int32_t> changed_;
   uint32_t live_ = 0;
   double shape_advancing_, shape_receding_, shape_mean_;  // V / R^3 at these angles
+  double least_bead_m3_, most_bead_m3_;                   // that some texel holds alone, of all of them
   double hold_per_m_;                                     // retention for a metre of width, N/m
+  double advancing_mps_, receding_mps_;                   // of a contact line that nothing else moves
+  double tan_half_advancing_, tan_half_receding_;
   double largest_radius_m_ = 0.0;
 };
 

@@ -106,13 +106,14 @@ Footprint FilmLink::within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m
   const double texel_m = map_.grid().texel_m;
   const glm::ivec2 reach(
       glm::min(glm::ceil(radius_m / (metres * texel_m)), glm::dvec2(Footprint::kFarthest)));
-  const glm::ivec2 middle(glm::floor(grid_m / texel_m));
+  const glm::ivec2 middle(grid_m / texel_m);
   Footprint out;
   for (int y = middle.y - reach.y; y <= middle.y + reach.y; ++y) {
     for (int x = middle.x - reach.x; x <= middle.x + reach.x; ++x) {
       const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) * texel_m;
-      if (glm::length((place - grid_m) * metres) > radius_m) continue;
-      const int texel = map_.texelAt(place);
+      const glm::dvec2 way_m = (place - grid_m) * metres;
+      if (glm::dot(way_m, way_m) > radius_m * radius_m) continue;
+      const int texel = map_.texelAt(glm::ivec2(x, y));
       if (texel >= 0) out.texels[out.count++] = texel;
     }
   }
@@ -134,9 +135,8 @@ void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int
 
 void FilmLink::take(int texel, double share, uint32_t slot, uint32_t life) {
   if (!attached_) return;
-  int64_t& taken_in = taken_in_[static_cast<size_t>(texel)];
-  if (taken_in == next_step_) return;
-  taken_in = next_step_;
+  const auto step = static_cast<int32_t>(next_step_);
+  if (std::exchange(taken_in_[static_cast<size_t>(texel)], step) == step) return;
   order_.takes.push_back({texel, static_cast<int>(std::clamp(share, 0.0, 1.0) * 65536.0)});
   takers_.push_back({slot, life, texel});
 }

@@ -97,7 +97,7 @@ class FilmLink {
   std::vector<int32_t> sums_;      // given to a texel in this step
   std::vector<int> touched_;       // texels with a sum
   std::vector<int32_t> bead_of_;   // texel: its place in the order's bead_adds, -1
-  std::vector<int64_t> taken_in_;  // the step in which somebody asked for a texel
+  std::vector<int32_t> taken_in_;  // the step in which somebody asked for a texel, its low bits
   std::vector<Taker> takers_;
   std::array<bool, kRidgePieces> leaving_{};  // in this step; the first to say where a ridge goes is right
   int64_t gathered_pl_ = 0;

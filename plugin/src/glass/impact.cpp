@@ -24,15 +24,34 @@ double reached_m3_s(const PaneMap& map, const PaneTick& tick, int region, const 
   return open * std::max(0.0, -glm::dot(v, map.regionArea_m2(region)));
 }
 
-// A texel of the region with the odds of its area and incidence, by trying.
+// Of the whole pane. Where all of it faces the stream, or none does, one product tells it.
+double reached_m3_s(const PaneMap& map, const PaneTick& tick, const glm::dvec3& open_m2,
+                    const glm::dvec3& v) {
+  const double against = -glm::dot(v, map.meanNormal()), bend = glm::length(v) * map.mostBentSine();
+  if (against >= bend) return -glm::dot(v, open_m2);
+  if (against <= -bend) return 0.0;
+  double sum = 0.0;
+  for (int r = 0; r < kRegions; ++r) sum += reached_m3_s(map, tick, r, v);
+  return sum;
+}
+
+// A texel of the region with the odds of its area and incidence, by trying. What is true of all its texels
+// mostly tells the outcome; looking them up one by one would cost more than all else about an impact.
 int pickTexel(const PaneMap& map, int region, const glm::dvec3& v, Stream& random) {
   const std::vector<int>& texels = map.regionTexels(region);
-  const double most = glm::length(v) * 1.5 * map.grid().texel_m * map.grid().texel_m;
+  const double speed = glm::length(v), most = speed * 1.5 * map.grid().texel_m * map.grid().texel_m;
+  const RegionBounds& bounds = map.regionBounds(region);
+  constexpr double kRounding = 1e-9;
+  const double against = -glm::dot(v, bounds.normal), bend = speed * (bounds.bend + kRounding);
+  const double surely = std::max(0.0, against - bend) * bounds.least_m2 * (1.0 - kRounding),
+               hardly = std::max(0.0, against + bend) * bounds.most_m2 * (1.0 + kRounding);
   for (int tries = 0;; ++tries) {
-    const int index = texels[static_cast<size_t>(random.unit() * static_cast<double>(texels.size()))];
+    const int& index = texels[static_cast<size_t>(random.unit() * static_cast<double>(texels.size()))];
+    const double chance = random.unit() * most;
+    if (chance < surely || tries == 200) return index;
+    if (chance >= hardly) continue;
     const PaneTexel& texel = map.texel(index);
-    const double weight = -glm::dot(v, glm::dvec3(texel.normal)) * static_cast<double>(texel.area_m2);
-    if (random.unit() * most < weight || tries == 200) return index;
+    if (chance < -glm::dot(v, glm::dvec3(texel.normal)) * static_cast<double>(texel.area_m2)) return index;
   }
 }
 
@@ -61,16 +80,23 @@ double catchRate_m3_s(const PaneMap& map, const PaneTick& tick) {
 void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32_t pane,
                  std::vector<Impact>& out) {
   out.clear();
+  glm::dvec3 open_m2(0.0);
+  for (int r = 0; r < kRegions; ++r)
+    open_m2 += static_cast<double>(tick.wet_share[static_cast<size_t>(r)]) * map.regionArea_m2(r);
   for (uint32_t c = 0; c < tick.class_count; ++c) {
     const SizeClass& size = tick.classes[c];
     const glm::dvec3 v = dropVelocity(tick, size);
+    const double mean = reached_m3_s(map, tick, open_m2, v) * size.number_per_m3 * kTickSeconds;
+    if (mean <= 0.0) continue;
+    Stream random(seed, pane, static_cast<uint64_t>(tick.index), c);
+    const uint32_t count = poisson(random, mean);
+    if (count == 0) continue;
     std::array<double, kRegions> sums{};
     double reached = 0.0;
     for (int r = 0; r < kRegions; ++r)
       sums[static_cast<size_t>(r)] = reached += reached_m3_s(map, tick, r, v);
     if (reached <= 0.0) continue;
-    Stream random(seed, pane, static_cast<uint64_t>(tick.index), c);
-    const uint32_t count = poisson(random, reached * size.number_per_m3 * kTickSeconds);
+    const int64_t volume_pl = picolitres(dropVolume_m3(size.diameter_m));
     for (uint32_t i = 0; i < count; ++i) {
       const auto region =
           std::lower_bound(sums.begin(), sums.end() - 1, random.unit() * reached) - sums.begin();
@@ -80,7 +106,7 @@ void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32
       impact.place_m = corner + map.grid().texel_m * glm::dvec2(random.unit(), random.unit());
       impact.diameter_m = size.diameter_m;
       impact.speed_mps = std::max(0.0, -glm::dot(v, glm::dvec3(map.texel(impact.texel).normal)));
-      impact.volume_pl = picolitres(dropVolume_m3(size.diameter_m));
+      impact.volume_pl = volume_pl;
       impact.hash = random.next();
       out.push_back(impact);
     }

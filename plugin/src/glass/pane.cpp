@@ -406,7 +406,7 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
         capAngle(static_cast<double>(drop.height_m), static_cast<double>(drop.base_radius_m)));
     record.elongation = drop.elongation;
     record.seed = drop.seed;
-    record.age_s = drop.age_s;
+    record.corner = drop.corner;
     made->drops.push_back(record);
   }
   return state_->snapshot = std::move(made);

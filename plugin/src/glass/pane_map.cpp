@@ -154,19 +154,23 @@ void PaneMap::findDirections() {
   const glm::dvec3 up = glm::normalize(vertical - glm::dot(vertical, normal) * normal);
   const glm::dvec3 right = glm::cross(normal, up);  // seen from inside, looking out along the normal
   mean_normal_ = normal;
+  double least_cosine = 1.0;
+  least_texel_m2_ = 1e300;
+  for (const PaneTexel& t : texels_) {
+    if (t.area_m2 <= 0.0f) continue;
+    const double area_m2 = static_cast<double>(t.area_m2);
+    least_texel_m2_ = std::min(least_texel_m2_, area_m2);
+    most_texel_m2_ = std::max(most_texel_m2_, area_m2);
+    least_cosine = std::min(least_cosine, glm::dot(glm::dvec3(t.normal), normal));
+  }
+  // Normals are rounded to floats.
+  if (least_cosine > 0.0)
+    most_bent_sine_ = std::min(1.0, std::sqrt(1.0 - least_cosine * least_cosine) + 1e-5);
   mean_up_ = up;
   glassFromGrid_ = glm::dmat2(glm::dot(along_x, right), glm::dot(along_x, up), glm::dot(along_y, right),
                               glm::dot(along_y, up));
   gridFromGlass_ = glm::inverse(glassFromGrid_);
   up_ = glm::normalize(gridFromGlass_ * glm::dvec2(0.0, 1.0));
-}
-
-int PaneMap::texelAt(glm::dvec2 grid_m) const {
-  const int x = static_cast<int>(std::floor(grid_m.x / grid_.texel_m)),
-            y = static_cast<int>(std::floor(grid_m.y / grid_.texel_m));
-  if (x < 0 || y < 0 || x >= grid_.size.x || y >= grid_.size.y) return -1;
-  const int index = y * grid_.size.x + x;
-  return shown(index) ? index : -1;
 }
 
 glm::dvec2 PaneMap::middleOf(int index) const {
@@ -282,7 +286,22 @@ void PaneMap::makeRegions() {
   for (size_t r = 0; r < regions_.size(); ++r) {
     glm::dvec3 sum{0.0};
     for (const int i : regions_[r]) sum += glm::dvec3(texel(i).position_m);
-    if (!regions_[r].empty()) region_centre_[r] = sum / static_cast<double>(regions_[r].size());
+    if (regions_[r].empty()) continue;
+    region_centre_[r] = sum / static_cast<double>(regions_[r].size());
+    boundRegion(r);
+  }
+}
+
+void PaneMap::boundRegion(size_t region) {
+  RegionBounds& bounds = region_bounds_[region];
+  for (const int i : regions_[region])
+    bounds.normal += glm::dvec3(texel(i).normal) / static_cast<double>(regions_[region].size());
+  bounds.least_m2 = 1e300;
+  for (const int i : regions_[region]) {
+    const double area_m2 = static_cast<double>(texel(i).area_m2);
+    bounds.bend = std::max(bounds.bend, glm::distance(glm::dvec3(texel(i).normal), bounds.normal));
+    bounds.least_m2 = std::min(bounds.least_m2, area_m2);
+    bounds.most_m2 = std::max(bounds.most_m2, area_m2);
   }
 }
 

@@ -40,6 +40,13 @@ struct PaneNode {
   double height = 0.0;  // 0 at its lower edge .. 1 at its upper
 };
 
+// What all texels of a region have in common, shown or not.
+struct RegionBounds {
+  glm::dvec3 normal{0.0};  // their mean one, not of unit length
+  double bend = 0.0;       // none of theirs is farther from it
+  double least_m2 = 0.0, most_m2 = 0.0;
+};
+
 class PaneMap {
  public:
   // Throws std::invalid_argument naming the pane: uvs missing, without area or overlapping; degenerate
@@ -53,6 +60,8 @@ class PaneMap {
   const PaneTexel& texel(int index) const { return texels_[static_cast<size_t>(index)]; }
   bool inside(int index) const { return inside_[static_cast<size_t>(index)] != 0; }
   double area_m2() const { return area_m2_; }
+  double leastTexel_m2() const { return least_texel_m2_; }
+  double mostTexel_m2() const { return most_texel_m2_; }
 
   // Of a window that slides some texels are behind its sill: texelAt and what is said of tiles and of
   // regions, but for their centres, leave them out. All else about a map never changes once it is made, so
@@ -61,7 +70,16 @@ class PaneMap {
   void show(std::span<const int> texels, bool shown);
 
   // Index of the texel at a place, or -1 where it is off the pane or not shown.
-  int texelAt(glm::dvec2 grid_m) const;
+  int texelAt(glm::dvec2 grid_m) const {
+    const glm::dvec2 texel = grid_m / grid_.texel_m;
+    if (!(texel.x >= 0.0 && texel.y >= 0.0 && texel.x < grid_.size.x && texel.y < grid_.size.y)) return -1;
+    return shownAt(static_cast<int>(texel.x), static_cast<int>(texel.y));
+  }
+  // The same of a column and a row of the grid.
+  int texelAt(glm::ivec2 texel) const {
+    const bool known = texel.x >= 0 && texel.y >= 0 && texel.x < grid_.size.x && texel.y < grid_.size.y;
+    return known ? shownAt(texel.x, texel.y) : -1;
+  }
   glm::dvec2 middleOf(int index) const;
 
   // Glass metres: right of the pane's middle seen from inside, and up. Exact on a flat pane; on a curved one
@@ -73,7 +91,9 @@ class PaneMap {
   bool rightHanded() const { return right_handed_; }  // along x cross along y points out of the glass
   glm::dvec2 up() const { return up_; }               // unit, grid axes: from the lower to the upper edge
   const glm::dvec3& meanNormal() const { return mean_normal_; }  // unit, outward, vehicle frame
-  const glm::dvec3& meanUp() const { return mean_up_; }          // unit, up along the mean glass
+  // No normal of the glass is farther from the mean one than the angle of this sine; 1: some look away.
+  double mostBentSine() const { return most_bent_sine_; }
+  const glm::dvec3& meanUp() const { return mean_up_; }  // unit, up along the mean glass
   // What a shift along the mean glass is in PaneNode's across and height.
   glm::dvec2 acrossAndHeight(const glm::dvec3& shift_m) const;
 
@@ -93,6 +113,7 @@ class PaneMap {
     return region_centre_[static_cast<size_t>(region)];
   }
   const std::vector<int>& regionTexels(int region) const { return regions_[static_cast<size_t>(region)]; }
+  const RegionBounds& regionBounds(int region) const { return region_bounds_[static_cast<size_t>(region)]; }
   // Outward area vector: the flux of a stream that meets all of it is -v . this.
   const glm::dvec3& regionArea_m2(int region) const { return region_area_[static_cast<size_t>(region)]; }
   glm::vec3 centre_m() const { return centre_m_; }
@@ -104,6 +125,10 @@ class PaneMap {
   void findDirections();
   void makeNodes();
   void makeRegions();
+  int shownAt(int x, int y) const {
+    const int index = y * grid_.size.x + x;
+    return shown(index) ? index : -1;
+  }
   size_t regionOf(int index) const;
   size_t tileOf(int index) const;
 
@@ -112,9 +137,10 @@ class PaneMap {
   std::vector<PaneTexel> texels_;
   std::vector<uint8_t> inside_;
   std::vector<uint8_t> shown_;  // by itself, as each drop on its way asks for it
-  double area_m2_ = 0.0;
+  double area_m2_ = 0.0, least_texel_m2_ = 0.0, most_texel_m2_ = 0.0;
   glm::dvec2 middle_m_{0.0}, up_{0.0, 1.0};
   glm::dvec3 mean_normal_{0.0, 0.0, 1.0}, mean_up_{1.0, 0.0, 0.0};
+  double most_bent_sine_ = 1.0;
   glm::dvec2 glass_extent_m_{1.0};
   glm::dmat2 gridFromGlass_{1.0}, glassFromGrid_{1.0};
   bool right_handed_ = true;
@@ -122,7 +148,9 @@ class PaneMap {
   std::vector<PaneNode> nodes_;
   std::vector<shared::vec4> node_metric_;
   std::vector<float> tile_area_m2_;
+  void boundRegion(size_t region);
   std::array<std::vector<int>, kRegions> regions_, all_of_region_;
+  std::array<RegionBounds, kRegions> region_bounds_{};
   std::array<glm::dvec3, kRegions> region_area_{};
   std::array<std::optional<glm::dvec3>, kRegions> region_centre_;
   glm::vec3 centre_m_{0.0f};
