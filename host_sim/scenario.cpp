@@ -290,7 +290,6 @@ Scenario loadScenario(const std::string& name_or_file, const std::vector<std::st
   s.prewarm_s = top.number("prewarm_s", 0.0, 0.0, 600.0);
   s.seed = static_cast<uint64_t>(top.number("seed", 1.0, 0.0, 9e15));
   s.camera = top.text("camera", "cockpit");
-  s.pupil_mm = top.number("pupil_mm", 0.0, 0.0, 50.0);
   if (top.find("white_cd_m2") != nullptr) s.white_cd_m2 = top.number("white_cd_m2", 0.0, 1e-3, 1e9);
   readGlass(top, s);
   s.headlights = top.flag("headlights", true);

@@ -52,7 +52,6 @@ struct Scenario {
   // Luminance that is white in a picture of fixed exposure without tone curve, as a camera takes it; none:
   // the driver's eye adapts.
   std::optional<double> white_cd_m2;
-  double pupil_mm = 0.0;  // of the eye or camera, focused on what is far; 0: the glass is sharp too
   std::optional<GlassSurface> glass;  // of all panes, instead of what the car's model says
   bool headlights = true;
   bool shelter = true;  // false: the plugin is told of no volume, and it rains through roofs

@@ -271,9 +271,7 @@ Eye Simulation::eyeOf(const CarState& car) const {
 
 rg_view Simulation::viewOf(const CarState& car) const {
   const Eye eye = eyeOf(car);
-  rg_view view = pluginView(plugin_.api(), eye.view, size_px_, eye.velocity_mps, eye.inside ? kCarId : 0);
-  view.pupil_m = 1e-3 * scenario_.pupil_mm;
-  return view;
+  return pluginView(plugin_.api(), eye.view, size_px_, eye.velocity_mps, eye.inside ? kCarId : 0);
 }
 
 }  // namespace host

@@ -169,7 +169,11 @@ void GpuScene::measureGlows(const Scene& scene) {
   for (int index : scene.order) {
     const Node& node = scene.nodes[static_cast<std::size_t>(index)];
     const auto* meaning = std::get_if<LightMeaning>(&node.meaning);
-    if (meaning == nullptr || node.mesh < 0 || meaning->role == LightRole::Head) continue;
+    if (meaning == nullptr || node.mesh < 0) continue;
+    if (meaning->role == LightRole::Head) {
+      headlights_glow = true;
+      continue;
+    }
     const glm::mat4 matrix = host_from_file * node.scene_from_node;
     GpuGlow sides[2];
     glm::vec3 normals[2]{}, middles[2]{};

@@ -86,8 +86,9 @@ class GpuScene {
   std::vector<GpuMaterial> materials;
   std::vector<GpuDraw> draws;
   std::vector<GpuLamp> lamps;
-  std::vector<GpuGlow> glows;  ///< of a car
-  std::vector<GpuGrid> grids;  ///< in the host's frame of the scene
+  std::vector<GpuGlow> glows;    ///< of a car
+  bool headlights_glow = false;  ///< they have a mesh beside their lights
+  std::vector<GpuGrid> grids;    ///< in the host's frame of the scene
   GLuint vertex_array = 0;
   glm::vec4 footprint{0.0F};  ///< of a car: half length, half width, middle along x (m), 1
 

@@ -54,13 +54,11 @@ void Instance::place(const Placement& to) {
 }
 
 void Instance::addGlares(glm::dvec3 eye_m, std::vector<Glare>& glares) const {
-  // The spot stands before the car's glass, which is seen to glow from close by.
-  const bool glass_glows = std::ranges::any_of(
-      scene->glows, [](const GpuGlow& glow) { return glow.role == static_cast<int>(LightRole::Head); });
   for (const LampNow& lamp : lamps) {
     const glm::vec3 away(glm::normalize(eye_m - lamp.position_m));
     const float share = lamp.low_beam ? lowBeam(away, lamp.direction) : 0.0F;
-    if (share > 0.0F) glares.push_back({lamp.position_m, share * lamp.intensity, kHeadlight_m, glass_glows});
+    if (share > 0.0F)
+      glares.push_back({lamp.position_m, share * lamp.intensity, kHeadlight_m, scene->headlights_glow});
   }
   for (const GpuGlow& glow : scene->glows) {
     const glm::vec3 intensity =

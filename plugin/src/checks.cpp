@@ -197,8 +197,6 @@ ViewState readView(const rg_view* in) {
   state.vehicle = v.vehicle;
   state.discontinuity = v.discontinuity != 0;
   state.eye_velocity_mps = readVector(v.eye_velocity_mps, kFastest_mps, "rg_view.eye_velocity_mps");
-  checkRange(v.pupil_m, 0.0, 0.05, "rg_view.pupil_m");
-  state.pupil_m = v.pupil_m;
   return state;
 }
 

@@ -292,11 +292,11 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
     }
     gl.look->settings.brightness = static_cast<float>(settings_.glass_brightness);
     gl.look->settings.blur = static_cast<float>(settings_.glass_blur);
+    gl.look->settings.pupil_m = static_cast<float>(settings_.glass_pupil_m);
     gl.look->settings.internal_reflections = static_cast<int>(settings_.glass_internal_reflections);
   }
-  const glass::LookView view{request.view.eyeFromWorld,   request.view.clipFromEye,
-                             request.viewport_px,         request.view.clip_zero_to_one,
-                             request.view.reversed_depth, request.view.pupil_m};
+  const glass::LookView view{request.view.eyeFromWorld, request.view.clipFromEye, request.viewport_px,
+                             request.view.clip_zero_to_one, request.view.reversed_depth};
   glass::LookTarget target = request.target;
   target.depth_texture = request.depth_texture;
   glass::LookLight light;

@@ -21,6 +21,7 @@ struct Settings {
   double glow_strength = 0.0;
   double glass_brightness = 1.0;
   double glass_blur = 1.0;
+  double glass_pupil_m = 0.0;
   double glass_internal_reflections = 3.0;
   double glass_capture_px = 256.0;
   double fog_cabin_temperature_c = 20.0;
@@ -83,13 +84,18 @@ inline constexpr SettingInfo kSettings[] = {
      "draw wet surfaces themselves",
      0.0, 1.0, &Settings::wetness_strength},
     {"glow.strength", "1", "glow",
-     "how much of the picture's light draw_finish spreads as the driver's eye does; 1 = as that of a driver of "
+     "how much of the picture's light draw_finish spreads as the driver's eye does; 1 = as that of a driver "
+     "of "
      "40, 0 = none: for hosts that draw a glow themselves",
      0.0, 4.0, &Settings::glow_strength},
     {"glass.brightness", "1", "glass", "of what is seen through water", 0.0, 2.0,
      &Settings::glass_brightness},
     {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0,
      &Settings::glass_blur},
+    {"glass.pupil_m", "m", "glass",
+     "width of the pupil of the eye or camera, which is focused on what is far: drops on glass that it looks "
+     "through, that wide or less, dissolve, where depth_texture is given; 0 = all is sharp",
+     0.0, 0.05, &Settings::glass_pupil_m},
     {"glass.internal_reflections", "1", "glass", "followed inside a drop", 0.0, 6.0,
      &Settings::glass_internal_reflections},
     {"glass.capture_px", "px", "glass", "side of a face of the captured surroundings", 32.0, 2048.0,

@@ -59,7 +59,6 @@ struct ViewState {
   uint32_t vehicle = 0;
   bool discontinuity = false;
   glm::dvec3 eye_velocity_mps{0.0};
-  double pupil_m = 0.0;
 };
 
 // Where a wiper stood during the tick: it swept from `from_rad` over any reversal in `extreme_rad` to

@@ -20,12 +20,13 @@ const float kTexel = 0.5;  // radii; sqrt(pi / kPlaces) would be each one's shar
 void main() {
   float depth_m = -(mat3(frame.eye_from_vehicle) * i.from_eye).z;
   float radius_px = 0.5 * frame.pupil_m * frame.pixels_per_rad / max(depth_m, 1e-4);
-  vec2 size = vec2(textureSize(drops, 0)), at = gl_FragCoord.xy / size;
+  vec2 size = vec2(textureSize(drops, 0)), low = frame.viewport.xy + 0.5, high = frame.viewport.xy + frame.viewport.zw - 0.5;
   float level = max(log2(kTexel * radius_px), 0.0);
   vec4 sum = vec4(0.0);
   for (int k = 0; k < kPlaces; ++k) {
     float from_middle = radius_px * sqrt((float(k) + 0.5) / float(kPlaces)), turn = kGolden_rad * float(k);
-    sum += textureLod(drops, at + from_middle * vec2(cos(turn), sin(turn)) / size, level);
+    vec2 at = clamp(gl_FragCoord.xy + from_middle * vec2(cos(turn), sin(turn)), low, high);
+    sum += textureLod(drops, at / size, level);
   }
   color = sum / float(kPlaces);
 }

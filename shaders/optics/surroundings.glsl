@@ -15,7 +15,9 @@ vec3 encode(vec3 radiance) {
 }
 vec3 decode(vec3 value) { return mix(value / 12.92, pow((value + 0.055) / 1.055, vec3(2.4)), greaterThan(value, vec3(0.04045))); }
 #else
-vec3 encode(vec3 radiance) { return radiance; }
+// On its way through half floats, to be blurred, a lamp must not become infinite.
+const float kBrightestApart = 6.0e4;
+vec3 encode(vec3 radiance) { return frame.pupil_m > 0.0 ? min(radiance, kBrightestApart) : radiance; }
 vec3 decode(vec3 value) { return value; }
 #endif
 

@@ -4,4 +4,6 @@ layout(location = 0) uniform vec4 place_px;    // xy: the picture's corner; zw: 
 layout(location = 1) uniform float share;      // of the light that goes astray
 layout(location = 0) out vec4 colour;
 
-void main() { colour = vec4(textureLod(glow, (gl_FragCoord.xy - place_px.xy) / place_px.zw, 0.0).rgb, share); }
+const float kScale = 256.0;  // of glow_gather.frag
+
+void main() { colour = vec4(kScale * textureLod(glow, (gl_FragCoord.xy - place_px.xy) / place_px.zw, 0.0).rgb, share); }

@@ -149,12 +149,11 @@ TEST_F(BadArguments, viewsThatAreNoNumbersAreRefused) {
       s.view_count = 1;
     });
   };
-  expectStructChecked<rg_view>(
-      "rg_view", good,
-      {offsetof(rg_view, eye_from_world), offsetof(rg_view, eye_from_world) + 96,
-       offsetof(rg_view, projection), offsetof(rg_view, projection) + 80, offsetof(rg_view, exposure_s),
-       offsetof(rg_view, eye_velocity_mps), offsetof(rg_view, pupil_m)},
-      call);
+  expectStructChecked<rg_view>("rg_view", good,
+                               {offsetof(rg_view, eye_from_world), offsetof(rg_view, eye_from_world) + 96,
+                                offsetof(rg_view, projection), offsetof(rg_view, projection) + 80,
+                                offsetof(rg_view, exposure_s), offsetof(rg_view, eye_velocity_mps)},
+                               call);
   rg_view bad = good;
   bad.viewport_px[2] = -1;
   expectRefused("a viewport of negative width", [&] { return call(bad); });

@@ -44,7 +44,11 @@ const Call kCalls[] = {
        s.expect(s.api.set_parameter(s.instance, "wetness.strength", 1.0));
        return s.draw(s.api.draw_world, t);
      }},
-    {"draw_glass", [](SmallScene& s, const rg_target& t) { return s.draw(s.api.draw_glass, t); }},
+    {"draw_glass",
+     [](SmallScene& s, const rg_target& t) {
+       s.expect(s.api.set_parameter(s.instance, "glass.pupil_m", 0.004));
+       return s.draw(s.api.draw_glass, t);
+     }},
     {"draw_finish",
      [](SmallScene& s, const rg_target& t) {
        s.expect(s.api.set_parameter(s.instance, "glow.strength", 1.0));

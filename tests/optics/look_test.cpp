@@ -131,9 +131,10 @@ TEST_F(Look, dropsOutOfFocusAreTheMeanOfWhatThePupilsPointsSee) {
   scene.light.environment_cube = cube.name();
   scene.depths.assign(scene.picture.size(), 1.0f);
   constexpr double kPupil_m = 0.01;
-  scene.view.pupil_m = kPupil_m;
+  look.settings.pupil_m = static_cast<float>(kPupil_m);
   const Picture unsharp = draw(gl, look, scene, {&pane.pane, 1});
 
+  look.settings.pupil_m = 0.0f;
   Picture mean, sharp;
   int eyes = 0;
   for (int k = 0; k < 49; ++k) {

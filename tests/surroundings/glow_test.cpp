@@ -35,12 +35,17 @@ TEST(Glare, isTheIntegralOfTheEquationOverRings) {
   }
 }
 
+// From an octave's root below the first level's bell to as much above the last one's, as far as an eye
+// spreads.
 TEST(Glare, levelsTogetherHaveTheShareOfAllTheirRings) {
   for (const double focal_px : {300.0, 1500.0, 6000.0}) {
+    const auto angle_deg = [focal_px](double px) {
+      return std::clamp(glm::degrees(std::atan(px / focal_px)), kGlareFrom_deg, kGlareTo_deg);
+    };
     double sum = 0.0;
     for (const float share : glareShares(focal_px, 7)) sum += static_cast<double>(share);
-    EXPECT_LE(sum, scatteredShare(kGlareFrom_deg, kGlareTo_deg) * 1.0001);
-    EXPECT_GE(sum, scatteredShare(0.5, 2.0)) << focal_px;
+    const double first_px = 0.73 * 1.18 * 2.0 / std::sqrt(2.0);
+    EXPECT_NEAR(sum, scatteredShare(angle_deg(first_px), angle_deg(128.0 * first_px)), 1e-6) << focal_px;
   }
 }
 
@@ -124,17 +129,38 @@ TEST_F(Glow, leavesAlphaAndWhatIsBesideTheViewportAndWhereNobodyAskedForIt) {
   EXPECT_EQ(glowOf(before, 96, 64, 0.0, {0, 0, 96, 64}).pixels, before);
   EXPECT_EQ(glowOf(before, 96, 64, 1.0, {0, 0, 96, 64}, true).pixels, before);  // sRGB
   EXPECT_EQ(glowOf(before, 96, 64, 1.0, {0, 0, 96, 3}).pixels, before);         // too small for any
+  for (const bool told : {true, false}) {  // partly and wholly beside the target
+    EXPECT_GT(at(glowOf(before, 96, 64, 1.0, {-40, 8, 96, 90}, false, told), 30, 32), 0.0f);
+    EXPECT_EQ(glowOf(before, 96, 64, 1.0, {96, 0, 96, 64}, false, told).pixels, before);
+  }
+}
+
+// What would be spread beside the picture comes back, alike at all borders, and none is lost; whatever the
+// host's unit.
+TEST_F(Glow, isAlikeAtAllBordersAndKeepsTheLight) {
+  const auto near = [&](glm::ivec2 lamp, glm::ivec2 inwards, glm::ivec2 size = {128, 64}) {
+    std::vector<vec4> pixels(static_cast<size_t>(size.x * size.y), vec4(0.0f));
+    pixels[static_cast<size_t>(lamp.y * size.x + lamp.x)] = vec4(1e6f);
+    const auto seen = glowOf(pixels, size.x, size.y, 1.0, {0, 0, size.x, size.y});
+    EXPECT_NEAR(lightWithin(seen, 1e9) / 1e6, 1.0, 0.02) << lamp.x << " " << lamp.y;
+    return static_cast<double>(seen.at(lamp.x + inwards.x, lamp.y + inwards.y).x);
+  };
+  // Sides of which all levels are halves.
+  EXPECT_NEAR(near({50, 62}, {0, -6}) / near({50, 1}, {0, 6}), 1.0, 0.01);
+  EXPECT_NEAR(near({126, 33}, {-6, 0}) / near({1, 33}, {6, 0}), 1.0, 0.01);
+  for (const glm::ivec2 corner : {glm::ivec2(2, 2), glm::ivec2(99, 65)}) near(corner, {0, 0}, {101, 67});
 }
 
 TEST_F(Glow, doesNotSpreadWhatIsNoLight) {
   auto pixels = lamp(96, 64, 2);
   pixels[96 * 20 + 20] = vec4(std::numeric_limits<float>::quiet_NaN());
+  pixels[96 * 20 + 40] = vec4(std::numeric_limits<float>::infinity());
   pixels[96 * 20 + 60] = vec4(-1e30f, -1e30f, -1e30f, 0.0f);
   const auto seen = glowOf(pixels, 96, 64, 4.0, {0, 0, 96, 64});
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 96; ++x) {
-      if (y == 20 && (x == 20 || x == 60)) continue;
-      ASSERT_GE(seen.at(x, y).x, 0.0f) << x << " " << y;
+      if (y == 20 && (x == 20 || x == 40 || x == 60)) continue;
+      ASSERT_TRUE(seen.at(x, y).x >= 0.0f && seen.at(x, y).x < 1e9f) << x << " " << y;
     }
   }
 }

@@ -188,10 +188,6 @@ typedef struct rg_view {
   uint32_t vehicle;           /* the vehicle the eye is inside of, 0 = outside of all */
   uint32_t discontinuity;     /* 1: camera cut: this view shows something else than before */
   double eye_velocity_mps[3]; /* of the eye, world axes */
-  /* Since minor 6. Width of the eye's or the camera's pupil, 0 .. 0.05 m, focused on what is far: drops on
-   * glass that it looks through, that wide or less, dissolve. Wants the target's depth_texture. Default 0:
-   * all is sharp */
-  double pupil_m;
 } rg_view;
 
 /* Fixed. A wiper's angle at a time. Between knots it is linear, so give one at every reversal. */

@@ -199,7 +199,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.bead_mm3_per_unit =
       1e9f * pane.film_unit_m3 / static_cast<float>(capShape(static_cast<double>(pane.bead_contact_rad)));
   block.mirror = pane.mirror;
-  block.pupil_m = static_cast<float>(view.pupil_m);
+  block.pupil_m = settings.pupil_m;
   block.bead_sine = std::sin(std::min(pane.bead_contact_rad, glm::half_pi<float>()));
   block.ridge_tan_contact = std::tan(std::min(pane.ridge_contact_rad, kSteepestRidge_rad));
   for (const LookBlade& blade : pane.blades) {
@@ -363,7 +363,7 @@ void GlassLook::Parts::drawUnsharp(const LookPane& pane, const LookView& view, c
   gl.Enablei(GL_BLEND, 0);
   bindMesh(pane, pane.index_buffer);
   gl.BindTextureUnit(kFirst, apart.name());
-  gl.BindSampler(kFirst, stepped.name());
+  gl.BindSampler(kFirst, mipped.name());
   programs.use(LookStage::unsharp);
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
 }
@@ -424,7 +424,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     p.setState(view, target);
     p.bindLook(light, target);
     if (with_lamps) p.lamps.hide();
-    const bool unsharp = view.pupil_m > 0.0 && target.depth_texture != 0 && pane.mirror <= 0.0f;
+    const bool unsharp = settings.pupil_m > 0.0f && target.depth_texture != 0 && pane.mirror <= 0.0f;
     p.drawWater(pane, unsharp ? kFilm | kRidges : kFilm | kBeads | kRidges);
     if (unsharp) {
       p.drawUnsharp(pane, view, target);

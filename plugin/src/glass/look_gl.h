@@ -24,7 +24,6 @@ struct LookView {
   glm::ivec4 viewport_px{0};  // x, y, width, height in the target
   bool clip_zero_to_one = false;
   bool reversed_depth = false;
-  double pupil_m = 0.0;  // how wide it is that looks at what is far; drops on the glass are blurred by as much
 };
 
 // Where it is drawn. `color_texture` is what the framebuffer's colour 0 shows, or 0: then the picture is
@@ -130,7 +129,9 @@ struct LookSettings {
   int capture_size_px = 256;     // of one face of the captured cube
   float brightness = 1.0f;       // of what is seen through water
   float blur = 1.0f;             // of what is seen through unresolved droplets
-  bool dry_reflection = true;    // dry glass reflects its surroundings when looked at from outside
+  float pupil_m = 0.0f;  // how wide the pupil is that looks at what is far: beads and drops that an eye
+                         // within sees are blurred by as much, where the target's depth is given
+  bool dry_reflection = true;  // dry glass reflects its surroundings when looked at from outside
 };
 
 // What a host's depth means: GL's -1 .. 1 or 0 .. 1, and whether it falls with distance.

@@ -15,7 +15,7 @@ double scatteredShare(double from_deg, double to_deg);
 
 // How much of a picture's light goes to each of its ever coarser levels, of texels 2, 4, 8 .. px wide, drawn
 // smoothly one over the other; `focal_px`: pixels to a radian in the picture's middle. Rings beyond the last
-// level are lost: their light falls beside the picture.
+// level are not spread: their light stays where it is.
 std::vector<float> glareShares(double focal_px, int levels);
 
 }  // namespace rg::surroundings

@@ -1,6 +1,7 @@
 #include "surroundings/glow_gl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "gl/canvases.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr int kMostLevels = 10;  // texels of 1024 px
 
 // Sides of the half picture that halve evenly down to the last level, so that no pixel's light is lost there.
+// The picture goes on beyond its borders as in a mirror: what is spread beside it comes back.
 int padded(int side_px, int levels) {
   const int unit = 1 << (levels - 1);
   return ((side_px + 1) / 2 + unit - 1) / unit * unit;
@@ -43,7 +45,8 @@ struct GlowRenderer::Objects {
         level(gl),
         no_vertices(gl),
         nearest(gl, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE),
-        linear(gl, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_CLAMP_TO_EDGE),
+        smooth(gl, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE),
+        mirrored(gl, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_MIRRORED_REPEAT),
         canvas(gl) {}
 
   const GladGLContext& gl;
@@ -51,7 +54,7 @@ struct GlowRenderer::Objects {
   gl::Canvases copies, pyramids;
   gl::Framebuffer level;
   gl::VertexArray no_vertices;
-  gl::Sampler nearest, linear;
+  gl::Sampler nearest, smooth, mirrored;
   rain::Canvas canvas;
 
   void gather(const rain::RainDraw& draw, gl::Texture2D& pyramid);
@@ -67,19 +70,26 @@ void GlowRenderer::Objects::drawTo(const gl::Texture2D& pyramid, int at_level) {
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// The picture, half as large, and its ever smaller levels.
+// The picture, half as large, and its ever smaller levels. Of a viewport that leaves the target what is
+// beside it is dark.
 void GlowRenderer::Objects::gather(const rain::RainDraw& draw, gl::Texture2D& pyramid) {
-  const glm::ivec4& v = draw.viewport_px;
+  glm::ivec2 corner(draw.viewport_px);
+  const glm::ivec2 size(draw.viewport_px.z, draw.viewport_px.w);
+  glm::ivec2 low = glm::max(corner, 0);
+  glm::ivec2 high = glm::min(corner + size, glm::ivec2(draw.target.width_px, draw.target.height_px));
   GLuint picture = draw.target.color_texture;
-  glm::ivec2 corner(v);
   if (picture == 0) {
-    const gl::Canvas& copy = copies.ofSize(v.z, v.w);
-    gl.BlitNamedFramebuffer(draw.target.framebuffer, copy.framebuffer.name(), v.x, v.y, v.x + v.z, v.y + v.w,
-                            0, 0, v.z, v.w, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    const gl::Canvas& copy = copies.ofSize(size.x, size.y);
+    gl.BlitNamedFramebuffer(draw.target.framebuffer, copy.framebuffer.name(), low.x, low.y, high.x, high.y,
+                            low.x - corner.x, low.y - corner.y, high.x - corner.x, high.y - corner.y,
+                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
     picture = copy.texture.name();
+    low -= corner;
+    high -= corner;
     corner = {0, 0};
   }
-  programs->gather.set(0, glm::ivec4(corner, corner + glm::ivec2(v.z, v.w) - 1));
+  programs->gather.set(0, glm::ivec4(corner, size));
+  programs->gather.set(1, glm::ivec4(low, high));
   programs->gather.use();
   gl.BindTextureUnit(3, picture);
   gl.BindSampler(3, nearest.name());
@@ -94,7 +104,7 @@ void GlowRenderer::Objects::spread(const gl::Texture2D& pyramid, std::span<const
   gl.BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
   gl.BlendFuncSeparatei(0, GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
   gl.BindTextureUnit(3, pyramid.name());
-  gl.BindSampler(3, linear.name());
+  gl.BindSampler(3, mirrored.name());
   programs->spread.use();
   float coarser = shares.back();  // nothing has weighted the last level yet
   for (int k = static_cast<int>(shares.size()) - 2; k >= 0; --k) {
@@ -115,9 +125,11 @@ void GlowRenderer::draw(const rain::RainDraw& draw, double strength) {
   Objects& o = *objects_;
   const glm::ivec4& v = draw.viewport_px;
   const int levels = levelsFor(v);
-  if (!(strength > 0.0) || draw.target.srgb || levels < 2) return;
+  const bool beside =
+      v.x >= draw.target.width_px || v.y >= draw.target.height_px || v.x + v.z <= 0 || v.y + v.w <= 0;
+  if (!(strength > 0.0) || draw.target.srgb || levels < 2 || beside) return;
   if (!o.programs) o.programs.emplace(o.gl);
-  std::vector<float> shares = glareShares(0.5 * draw.view->clipFromEye[1][1] * v.w, levels);
+  std::vector<float> shares = glareShares(0.5 * std::abs(draw.view->clipFromEye[1][1]) * v.w, levels);
   float all = 0.0f;
   for (float& share : shares) all += share *= static_cast<float>(strength);
   if (all > 1.0f) {  // more than all of it cannot go astray
@@ -139,6 +151,7 @@ void GlowRenderer::draw(const rain::RainDraw& draw, double strength) {
   o.programs->lay.set(0, glm::vec4(v.x, v.y, 2 * pyramid.width(), 2 * pyramid.height()));
   o.programs->lay.set(1, all);
   o.programs->lay.use();
+  o.gl.BindSampler(3, o.smooth.name());
   o.gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -154,7 +167,8 @@ void GlowRenderer::forget() {
   o.level.forget();
   o.no_vertices.forget();
   o.nearest.forget();
-  o.linear.forget();
+  o.smooth.forget();
+  o.mirrored.forget();
   o.canvas.forget();
 }
 
