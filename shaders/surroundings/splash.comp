@@ -160,7 +160,7 @@ bool stands(Splash s, uint lattice, out vec3 foot) {
 
 // Whether a splash is at work, and its line may be in the picture near enough to count: most are not.
 bool mayBeSeen(SplashJob job, uint number) {
-  Splash s = splashOf(job, job.from + number - job.first);
+  Splash s = splashOf(job, number - job.first);
   uint lattice = job.level >> 2u & 1u;
   vec3 low = splashOnLine(s, splash_rain.search[lattice].x), high = splashOnLine(s, highest(s, lattice));
   vec4 a = look.clipFromWorldAtEye * vec4(low, 1.0), b = look.clipFromWorldAtEye * vec4(high, 1.0);
@@ -178,7 +178,7 @@ struct Seen {
 
 bool seenOf(SplashJob job, uint number, out Splash s, out Seen seen) {
   uint lattice = job.level >> 2u & 1u;
-  s = splashOf(job, job.from + number - job.first);
+  s = splashOf(job, number - job.first);
   if (!stands(s, lattice, seen.foot)) return false;
   seen.depth = dot(seen.foot, look.forward.xyz);
   float distance_m = length(seen.foot), reach_m = splash_rain.reach.x;
