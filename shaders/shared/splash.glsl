@@ -249,6 +249,19 @@ RG_FN SplashDrawn splashDrawn(RG_IN(SplashShape) shape, float px_per_m, float si
   return drawn;
 }
 
+// The same smaller, where there is no room for it: it covers as much in all.
+RG_FN SplashDrawn splashShrunk(RG_IN(SplashDrawn) drawn, float by) {
+  SplashDrawn shrunk;
+  shrunk.radius = drawn.radius * by;
+  shrunk.sine = drawn.sine;
+  shrunk.wall_height = drawn.wall_height * by;
+  shrunk.wall = drawn.wall / (by * by);
+  shrunk.low = drawn.low * by;
+  shrunk.high = drawn.high * by;
+  shrunk.droplets = drawn.droplets / (by * by);
+  return shrunk;
+}
+
 // Cosine and sine of 4 times (xy) and 8 times (zw) an angle.
 RG_FN vec4 splashTurns(float sine) {
   vec2 twice = vec2(1.0f - 2.0f * sine * sine, 2.0f * sine * sqrt(1.0f - sine * sine));
@@ -301,7 +314,7 @@ struct SplashPoint {
   vec4 place;  // xyz: of its middle, in clip space; w: its side, px
   vec4 a;      // xy: the foot, px on the target; halves: z up there; w: the depth that what hides it lies before, m
   vec4 b;      // px: radius, height of the wall, and of the droplets' band from and to
-  vec4 c;      // what of a pixel the droplets cover (w); halves: x red and green, y blue and the elevation's sine, z what the wall covers and the beads' phase
+  vec4 c;      // what of a pixel the droplets cover (w); halves: x red and green, y blue and the elevation's sine, z what the wall covers and the droplets' phase
 };
 RG_SIZE(SplashPoint, 64)
 

@@ -245,6 +245,14 @@ TEST(Splashes, coverAsMuchAtEverySize) {
   }
 }
 
+// Where points may not be as large as they are.
+TEST(Splashes, coverAsMuchWhereTheyAreShrunk) {
+  const shared::SplashDrawn drawn =
+      shared::splashDrawn(shared::splashShape(0.003f, 0.012f), 2000.0f, 0.4f, 1.0f);
+  const float all = shared::splashCoverSum(drawn);
+  EXPECT_NEAR(shared::splashCoverSum(shared::splashShrunk(drawn, 0.4f)), all, 1e-5f * all);
+}
+
 // What they cover in nature is what their wall and droplets do, whatever they are drawn like.
 TEST(Splashes, areDrawnAsTheyAre) {
   const shared::SplashShape shape = shared::splashShape(0.003f, 0.012f);
