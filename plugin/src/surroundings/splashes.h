@@ -20,8 +20,7 @@ inline constexpr double kMostSplashReach_m = 40.0;
 inline constexpr double kSplashShelter_m = kMostSplashReach_m + 20.0;
 
 // So many a view all about is to look at; where the rain makes more of them all are thinned alike. A driver's
-// sees about half of them at 80 km/h: some 100 000 in 100 mm/h, from where on they are thinned, which takes
-// 10 MB on the GPU.
+// sees less than half of them at 80 km/h: some 100 000 in 100 mm/h, which takes 10 MB on the GPU.
 inline constexpr uint32_t kMostSplashes = 1u << 18u;
 
 struct SplashLook {
