@@ -313,6 +313,7 @@ void Frame::publishWetness() {
   wetness_picture_.water_mm = wetness_.water_mm();
   wetness_picture_.has_volumes = settings_.wetness_strength > 0.0;
   wetness_picture_.fall_mps = splash_picture_.drift_mps - glm::dvec3(0, 0, kTypicalFall_mps);
+  wetness_picture_.origin_m = splash_picture_.origin_m;
   wetness_picture_.volumes.clear();
   if (wetness_picture_.has_volumes)
     field_.volumesNear(splash_picture_.eyes_m, surroundings::kWetShelter_m, wetness_picture_.volumes);

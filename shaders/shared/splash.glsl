@@ -13,8 +13,7 @@
 RG_SHARED_BEGIN
 
 RG_CONST float kSplashFrom_mm = 1.0f;  // smaller drops throw up nothing (physics of rain: crowns come from about 1 mm up)
-RG_CONST float kSplashEpoch_s = 0.0625f;
-RG_CONST uint kSplashEpochs = 3u;      // that may have splashes left: two whole ones cover the longest life
+RG_CONST float kSplashEpoch_s = 0.015625f;  // short beside a splash's life, so that few are looked at that are over or to come
 RG_CONST uint kSplashLevels = 4u;      // of thinning
 RG_CONST uint kSplashSorts = 4u;       // of drops, by size
 RG_CONST uint kSplashLattices = 2u;    // one stands in the world, one goes with the view's vehicle
@@ -37,9 +36,9 @@ struct SplashJob {
   uint epoch;
   uint level;     // and the level of thinning: bits 0 and 1; above them the lattice, bit 2, the sort, 3 and 4, and the lattice's name
   float since_s;  // from the epoch's beginning to the picture
-  uint number;    // of its splashes in all
-  uint from;      // those before are over; as many follow as there are numbers until the next job's `first`
-  uint first;     // what number the one `from` has among all of the picture's
+  uint first;     // what number its first splash has among all of the picture's; as many are its as there are until the next job's
+  uint spare0;
+  uint spare1;
 };
 RG_SIZE(SplashJob, 48)
 
@@ -150,7 +149,7 @@ RG_FN Splash splashOf(RG_IN(SplashJob) job, uint index RG_SPLASH_RAIN) {
   s.place_m = xyz(job.corner) + job.corner.w * vec3(unitFloat(a.x), unitFloat(a.y), 0.0f);
   vec4 drift = splash_rain.drift[lattice];
   s.velocity_mps = vec3(drift.x, drift.y, min(drift.z - splashFallSpeed(1.0e3f * s.diameter_m), -kSplashLeastFall_mps));
-  s.age_s = job.since_s - kSplashEpoch_s * (float(index) + unitFloat(a.w)) / float(job.number);  // spread over the epoch in the order of their numbers
+  s.age_s = job.since_s - kSplashEpoch_s * unitFloat(a.w);
   s.life_s = splashLife_s(s.diameter_m);
   s.rank = mix(ranks.x, ranks.y, openUnitFloat(b.x));
   s.seed = b.y;
@@ -250,6 +249,19 @@ RG_FN SplashDrawn splashDrawn(RG_IN(SplashShape) shape, float px_per_m, float si
   return drawn;
 }
 
+// The same smaller, where there is no room for it: it covers as much in all.
+RG_FN SplashDrawn splashShrunk(RG_IN(SplashDrawn) drawn, float by) {
+  SplashDrawn shrunk;
+  shrunk.radius = drawn.radius * by;
+  shrunk.sine = drawn.sine;
+  shrunk.wall_height = drawn.wall_height * by;
+  shrunk.wall = drawn.wall / (by * by);
+  shrunk.low = drawn.low * by;
+  shrunk.high = drawn.high * by;
+  shrunk.droplets = drawn.droplets / (by * by);
+  return shrunk;
+}
+
 // Cosine and sine of 4 times (xy) and 8 times (zw) an angle.
 RG_FN vec4 splashTurns(float sine) {
   vec2 twice = vec2(1.0f - 2.0f * sine * sine, 2.0f * sine * sqrt(1.0f - sine * sine));
@@ -302,7 +314,7 @@ struct SplashPoint {
   vec4 place;  // xyz: of its middle, in clip space; w: its side, px
   vec4 a;      // xy: the foot, px on the target; halves: z up there; w: the depth that what hides it lies before, m
   vec4 b;      // px: radius, height of the wall, and of the droplets' band from and to
-  vec4 c;      // what of a pixel the droplets cover (w); halves: x red and green, y blue and the elevation's sine, z what the wall covers and the beads' phase
+  vec4 c;      // what of a pixel the droplets cover (w); halves: x red and green, y blue and the elevation's sine, z what the wall covers and the droplets' phase
 };
 RG_SIZE(SplashPoint, 64)
 

@@ -15,6 +15,7 @@ layout(std430, binding = 2) writeonly buffer Commands { RainLineCommand commands
 layout(std430, binding = 3) readonly buffer Starts { uint starts[]; };  // the job of every kSplashStride-th splash
 layout(location = 0) uniform uint job_count;
 layout(location = 1) uniform uint splash_count;
+layout(location = 2) uniform float most_px;  // a point's side at most
 
 const float kNowhere = -1e9;
 const float kLift_m = 0.05;        // so much nearer to the eye a splash is held against a depth buffer, as it stands on what is there
@@ -129,9 +130,10 @@ float standsBehind(vec3 foot) {
   const int kLooks = 4;
   float sky = look.depth_rows.y > 0.0 ? 0.0 : 1.0;
   vec2 px = onScreen(foot), up = normalize(onScreen(foot + vec3(0.0, 0.0, 0.01 * dot(foot, look.forward.xyz))) - px + vec2(0.0, 1e-6));
+  vec2 rim_px = 0.5 * look.viewport.zw - 0.5;  // beyond it depths are not those of their places
   float behind = 0.0, step_px = 3.0;
   for (int i = 0; i < kLooks; ++i) {
-    vec2 there = floor(px + step_px * up) + 0.5;
+    vec2 there = clamp(floor(px + step_px * up) + 0.5, -rim_px, rim_px);
     vec3 way = sceneFrom(there) - foot;
     if (dot(way.xy, foot.xy) > 0.0 && texelFetch(scene_depth, texelAt(there), 0).r != sky) behind = max(behind, way.z / length(way));
     step_px *= 3.0;
@@ -160,7 +162,7 @@ bool stands(Splash s, uint lattice, out vec3 foot) {
 
 // Whether a splash is at work, and its line may be in the picture near enough to count: most are not.
 bool mayBeSeen(SplashJob job, uint number) {
-  Splash s = splashOf(job, job.from + number - job.first);
+  Splash s = splashOf(job, number - job.first);
   uint lattice = job.level >> 2u & 1u;
   vec3 low = splashOnLine(s, splash_rain.search[lattice].x), high = splashOnLine(s, highest(s, lattice));
   vec4 a = look.clipFromWorldAtEye * vec4(low, 1.0), b = look.clipFromWorldAtEye * vec4(high, 1.0);
@@ -178,7 +180,7 @@ struct Seen {
 
 bool seenOf(SplashJob job, uint number, out Splash s, out Seen seen) {
   uint lattice = job.level >> 2u & 1u;
-  s = splashOf(job, job.from + number - job.first);
+  s = splashOf(job, number - job.first);
   if (!stands(s, lattice, seen.foot)) return false;
   seen.depth = dot(seen.foot, look.forward.xyz);
   float distance_m = length(seen.foot), reach_m = splash_rain.reach.x;
@@ -208,11 +210,17 @@ void put(uint at, Splash s, Seen seen) {
   vec2 up = length(up_px) > 1e-3 ? normalize(up_px) : vec2(0.0, 1.0);
   SplashDrawn d = splashDrawn(splashShape(s.diameter_m, s.age_s), look.focal.y / seen.depth, abs(foot.z) / length(foot), seen.times);
   float pixel = rainPixelHalf(up), away = d.radius * d.sine, high = max(d.wall_height, d.high + 0.35 * (d.high - d.low));
-  vec2 middle_px = foot_px + up * (0.5 * high);
-  float half_px = max(d.radius, away + 0.5 * high) + pixel;
+  float half_px = max(d.radius, away + 0.5 * high);
+  float shrunk = clamp((0.25 * most_px / pixel - pixel) / half_px, 0.01, 1.0);
+  d = splashShrunk(d, shrunk);
+  half_px = shrunk * half_px + pixel;
+  // Points are drawn where their middle is in the picture.
+  vec2 free_px = foot_px + up * (0.5 * shrunk * high), rim_px = 0.5 * look.viewport.zw - 0.5;
+  vec2 middle_px = clamp(free_px, -rim_px, rim_px), moved_px = abs(free_px - middle_px);
+  float side_px = min(4.0 * pixel * half_px + 2.0 * max(moved_px.x, moved_px.y), most_px);
   float before = max(seen.depth - kLift_m - 2.0 * depthSteps(foot).x, 0.5 * seen.depth);
   float phase = float(s.seed & 1023u) * (6.2831853 / 1024.0);
-  drawn[at] = SplashPoint(vec4(middle_px * (2.0 / look.viewport.zw), rainStoredDepth(before, look.depth_rows), 4.0 * pixel * half_px),
+  drawn[at] = SplashPoint(vec4(middle_px * (2.0 / look.viewport.zw), rainStoredDepth(before, look.depth_rows), side_px),
                           vec4(foot_px + look.viewport.xy + 0.5 * look.viewport.zw, uintBitsToFloat(packHalf2x16(up)), before),
                           vec4(d.radius, d.wall_height, d.low, d.high),
                           vec4(uintBitsToFloat(packHalf2x16(light.rg)), uintBitsToFloat(packHalf2x16(vec2(light.b, d.sine))),

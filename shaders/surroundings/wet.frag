@@ -20,13 +20,16 @@ void main() {
   bool is_sky = stored == (look.depth_rows.y > 0.0 ? 0.0 : 1.0);
   float depth = rainSceneDepth(stored, look.depth_rows, look.zero_to_one);
   vec3 place = (view.ray_middle.xyz + clip.x * view.ray_right.xyz + clip.y * view.ray_up.xyz) * depth;
-  vec3 normal = cross(dFdx(place), dFdy(place));
+  vec3 right = dFdx(place), up = dFdy(place), normal = cross(right, up);
   normal *= inversesqrt(max(dot(normal, normal), 1e-20));
   if (dot(normal, place) > 0.0) normal = -normal;
   float looks_up = view.fall_wet.w * smoothstep(0.2, 0.7, normal.z);
   if (is_sky || looks_up <= 0.0 || wetIsSheltered(place, view.fall_wet.xyz, 0.01 + depth / look.focal.y)) discard;
 
-  float water_mm = view.water.x * wetPatch(view.water.yz + place.xy), wet = looks_up * wetDarkened(water_mm);
+  // Pixels that see a patch and more see what all patches are on average.
+  float seen = sqrt(max(dot(right, right), dot(up, up))) / kWetPatch_m;
+  float patches = mix(wetPatch(view.water.yz + place.xy), 1.0, smoothstep(0.25, 1.0, seen));
+  float water_mm = view.water.x * patches, wet = looks_up * wetDarkened(water_mm);
   float filled = wetFilled(water_mm) * smoothstep(0.7, 0.95, normal.z);  // water runs down from what is steep
   vec3 towards = normalize(place), mirrored = reflect(towards, normal);
   mirrored.z = abs(mirrored.z);

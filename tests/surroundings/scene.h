@@ -39,8 +39,7 @@ void each(const SplashSetup& setup, const Visit& visit) {
   for (size_t k = 0; k < setup.jobs.size(); ++k) {
     const shared::SplashJob& job = setup.jobs[k];
     const uint32_t end = k + 1 < setup.jobs.size() ? setup.jobs[k + 1].first : setup.count;
-    for (uint32_t i = 0; i < end - job.first; ++i)
-      visit(job, job.from + i, shared::splashOf(job, job.from + i, setup.rain));
+    for (uint32_t i = 0; i < end - job.first; ++i) visit(job, i, shared::splashOf(job, i, setup.rain));
   }
 }
 

@@ -2,7 +2,9 @@
 // much of them at every size. RG_RAIN_PICTURES=DIR writes pictures to look at.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <glm/gtx/transform.hpp>
 
 #include "gl/objects.h"
 #include "gl/state_guard.h"
@@ -134,6 +136,41 @@ TEST_F(SplashPictures, coverAsMuchAtEverySizeOfPicture) {
   });
   // To 6 %: what overlaps hides each other, and places are known to a pixel.
   EXPECT_NEAR(large, expected / (1280.0 * 720.0), 0.06 * large);
+}
+
+// As hosts draw into textures that they show upside down.
+TEST_F(SplashPictures, areTheSameUpsideDown) {
+  Scene scene = sceneOnGround(20.0);
+  const SplashPicture picture = pictureOf(scene);
+  const auto upright = draw(scene, picture, kTime_ns, {});
+  scene.views[0].clipFromEye = glm::scale(dvec3(1.0, -1.0, 1.0)) * scene.views[0].clipFromEye;
+  const auto flipped = draw(scene, picture, kTime_ns, {});
+  double apart = 0.0;
+  for (int y = 0; y < upright.height; ++y) {
+    for (int x = 0; x < upright.width; ++x)
+      apart += static_cast<double>(std::abs(upright.at(x, y).x - flipped.at(x, upright.height - 1 - y).x));
+  }
+  // But for those whose place is on the other side of a pixel's edge.
+  EXPECT_LT(apart, 0.05 * sum(upright));
+}
+
+// A picture's upper rim cuts them off, and does not leave them out: close by, as another picture shows them
+// that goes on above it. To 10 %: of those whose foot is above it the near side reaches below.
+TEST_F(SplashPictures, areCutByTheUpperRim) {
+  const dvec3 eye(0, 0, 0.3);
+  Scene scene = sceneOnGround(200.0, eye);
+  look(scene.views[0], eye, 0.0, -0.45);
+  const SplashPicture picture = pictureOf(scene);
+  const double slope = scene.views[0].clipFromEye[1][1];
+  double cut = 0.0, whole = 0.0;
+  for (int k = 0; k < 8; ++k) {
+    const int64_t time_ns = kTime_ns + k * INT64_C(150'000'000);
+    scene.views[0].clipFromEye[1][1] = slope;
+    whole += sum(draw(scene, picture, time_ns, {.width = 640, .height = 360}), 264, 270);
+    scene.views[0].clipFromEye[1][1] = 2.0 * slope;
+    cut += sum(draw(scene, picture, time_ns, {.width = 640, .height = 180}), 174, 180);
+  }
+  EXPECT_NEAR(cut, whole, 0.1 * whole);
 }
 
 // The foot of a dark wall 4 m ahead is shaded: what splashes there gathers from behind is the wall's, but for

@@ -66,8 +66,8 @@ TEST(Splashes, areAsManyAndAsLargeAsTheLawsDropsOver1mm) {
   }
 }
 
-// In a storm seen all about there are more than there is room for: all are thinned alike and each counts for
-// the rest, so that the weather is the same; never are there more than the room.
+// In a storm there are more than are looked at: all are thinned alike and each counts for the rest, so that
+// the weather is the same; a view nearly all about has no more than are meant to be.
 TEST(Splashes, areThinnedAlikeWhereTheyFindNoRoom) {
   Scene scene = sceneOnGround(300.0, {0, 0, 3.0});
   look(scene.views[0], {0, 0, 3.0}, 0.0, -1.5);
@@ -84,6 +84,32 @@ TEST(Splashes, areThinnedAlikeWhereTheyFindNoRoom) {
   EXPECT_EQ(setup.rain.reach.y, static_cast<float>(1.0 / setup.kept));
   const double expected = all.count * 8.0 * setup.kept;
   EXPECT_NEAR(setup.count, expected, 8.0 * 4.0 * std::sqrt(expected));
+}
+
+// Whatever a view sees of them; and as the rain grows there is no step, and never fewer are left.
+TEST(Splashes, areThinnedByTheRainAlone) {
+  SplashSetup wide, narrow;
+  double before = 0.0, before_mm_h = 0.0;
+  bool is_thinned = false;
+  for (double rate_mm_h = 50.0; rate_mm_h < 300.0; rate_mm_h *= 1.02) {
+    Scene scene = sceneOnGround(rate_mm_h);
+    const SplashPicture picture = pictureOf(scene);
+    ASSERT_TRUE(setUpSplashes(picture, scene.views[0], 0, {}, wide));
+    look(scene.views[0], {5.0, 2.0, 3.0}, 2.0, -0.5);
+    scene.views[0].clipFromEye = glm::perspective(0.1, 1.0, kNear_m, kFar_m);
+    ASSERT_TRUE(setUpSplashes(picture, scene.views[0], 777, {}, narrow));
+    EXPECT_EQ(wide.kept, narrow.kept);
+    const double left = wide.kept * picture.flux_per_m2s;
+    if (before > 0.0) {
+      // Larger drops' splashes last longer and show farther off: room for fewer, by less than the rate grows.
+      EXPECT_GT(left, before / (rate_mm_h / before_mm_h));
+      EXPECT_LT(left, before * (rate_mm_h / before_mm_h));
+    }
+    is_thinned |= wide.kept < 1.0;
+    before = left;
+    before_mm_h = rate_mm_h;
+  }
+  EXPECT_TRUE(is_thinned);
 }
 
 // Two pictures of the same moments know the same splashes, a step older, whatever lies between; and another
@@ -131,23 +157,27 @@ TEST(Splashes, areThoseOfTheirPlaceAndTime) {
   EXPECT_GT(common, first.size() / 4);
 }
 
-// As rain gets heavier more join those that are there, and none moves elsewhere.
+// As rain gets heavier more join those that are there, and none moves elsewhere or is of another age; so too
+// where they begin to be thinned, and where they are.
 TEST(Splashes, stayWhereTheyAreWhenTheRateChanges) {
-  const auto places = [](double rate_mm_h) {
+  const auto born = [](double rate_mm_h) {
     const Scene scene = sceneOnGround(rate_mm_h);
-    std::set<std::tuple<float, float>> all;
+    std::set<std::tuple<float, float, float>> all;
     SplashSetup setup;
     setUpSplashes(pictureOf(scene), scene.views[0], 500'000'000, {}, setup);
     each(setup, [&](const shared::SplashJob&, uint32_t, const shared::Splash& s) {
-      all.insert({s.place_m.x, s.place_m.y});
+      all.insert({s.place_m.x, s.place_m.y, s.age_s});
     });
     return all;
   };
-  const auto before = places(20.0), after = places(21.0);
-  size_t kept = 0;
-  for (const auto& place : before) kept += after.contains(place) ? size_t{1} : size_t{0};
-  // But for those at the ends of what is told of each cell.
-  EXPECT_GT(kept, before.size() * 8 / 10);
+  for (const double rate_mm_h : {20.0, 120.0, 200.0}) {
+    const auto before = born(rate_mm_h), after = born(1.05 * rate_mm_h);
+    size_t stay = 0;
+    for (const auto& splash : before) stay += after.contains(splash) ? size_t{1} : size_t{0};
+    // But for the few that larger ones, which last longer and show farther off, take the room of.
+    EXPECT_GT(stay, before.size() * 97 / 100) << rate_mm_h;
+    EXPECT_GE(after.size(), before.size() * 97 / 100) << rate_mm_h;
+  }
 }
 
 // The host's world is moved under it: the same splashes at the places that are the same.
@@ -213,6 +243,14 @@ TEST(Splashes, coverAsMuchAtEverySize) {
       }
     }
   }
+}
+
+// Where points may not be as large as they are.
+TEST(Splashes, coverAsMuchWhereTheyAreShrunk) {
+  const shared::SplashDrawn drawn =
+      shared::splashDrawn(shared::splashShape(0.003f, 0.012f), 2000.0f, 0.4f, 1.0f);
+  const float all = shared::splashCoverSum(drawn);
+  EXPECT_NEAR(shared::splashCoverSum(shared::splashShrunk(drawn, 0.4f)), all, 1e-5f * all);
 }
 
 // What they cover in nature is what their wall and droplets do, whatever they are drawn like.

@@ -124,5 +124,30 @@ TEST_F(WetPictures, darkenFirstAndShineAsWaterGathers) {
   EXPECT_NEAR(mean(1.0, 1.0f, false), 1.0, 1e-9);
 }
 
+// The host's world is moved under it: patches stay on the ground they are on. And far off, where pixels are
+// larger than patches, there are none to flicker.
+TEST_F(WetPictures, havePatchesThatStayWhenTheOriginMovesAndFadeFarOff) {
+  const dvec3 shift_m(1234.5, -777.25, 0.0), eye(0, 0, 1.5);
+  Scene scene = sceneOnGround(5.0, eye), moved = sceneOnGround(5.0, eye - shift_m);
+  WetnessPicture picture;
+  picture.water_mm = 0.1;
+  picture.has_volumes = true;
+  const auto before = draw(scene, picture, levelGround, 1.0);
+  picture.origin_m -= shift_m;
+  const auto after = draw(moved, picture, levelGround, 1.0);
+  for (size_t i = 0; i < before.pixels.size(); ++i)
+    ASSERT_NEAR(before.pixels[i].x, after.pixels[i].x, 1e-3f);  // of 0.05 by which patches differ
+  const auto spread = [&](int y) {
+    float least = 1.0f, most = 0.0f;
+    for (int x = 0; x < 160; ++x) {
+      least = std::min(least, before.at(x, y).x);
+      most = std::max(most, before.at(x, y).x);
+    }
+    return most - least;
+  };
+  EXPECT_GT(spread(2), 0.05f);
+  EXPECT_LT(spread(35), 0.01f);  // 12 m off, where a pixel is a metre long
+}
+
 }  // namespace
 }  // namespace rg::surroundings::test

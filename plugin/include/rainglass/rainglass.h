@@ -448,8 +448,10 @@ typedef struct rg_rain_stats {
   double ground_water_mm; /* that lies on open ground, 0 .. 1; the rest has run off. Dries by temperature,
                              humidity and wind (Penman 1948) */
   /* Since minor 6. */
-  double splash_thinning; /* share of the splashes that the latest draw_world looked at, each counting for the
-                             rest, 1 = all: of more than 131072 in a view all are thinned alike, by halves */
+  double splash_thinning; /* share of the splashes that the latest draw_world looked at, each counting
+                             for the rest, 1 = all. Alike for all views of one reach: where rain makes
+                             more than 262144 of them within it all about, from some 120 mm/h on at 20 m,
+                             all are thinned alike */
 } rg_rain_stats;
 
 /* The ledger of a pane, mL since it was made or reset. caught = on_glass + drained + wiped + blown +

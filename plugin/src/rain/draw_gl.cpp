@@ -45,8 +45,9 @@ void setView(const RainDraw& draw, RainLook& look) {
   look.clipFromWorldAtEye = glm::mat4(p * glm::dmat4(eyeFromWorld));
   look.forward = wide(vec3(glm::transpose(eyeFromWorld) * dvec3(0, 0, -1)));
   look.viewport = vec4(draw.viewport_px);
-  look.focal = vec4(0.5 * p[0][0] * draw.viewport_px.z, 0.5 * p[1][1] * draw.viewport_px.w, draw.gain,
-                    draw.target.exposure);
+  // Lengths, of pictures that stand on their heads too.
+  look.focal = vec4(0.5 * std::abs(p[0][0]) * draw.viewport_px.z,
+                    0.5 * std::abs(p[1][1]) * draw.viewport_px.w, draw.gain, draw.target.exposure);
   look.depth_rows = vec4(p[2][2], p[3][2], p[2][3], p[3][3]);
   look.zero_to_one = draw.view->clip_zero_to_one ? 1 : 0;
   look.srgb = draw.target.srgb ? 1 : 0;

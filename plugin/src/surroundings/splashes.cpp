@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <utility>
 
 #include "rain/class_frames.h"
@@ -13,10 +14,9 @@ namespace rg::surroundings {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::vec4;
-using shared::kSplashEpoch_s, shared::kSplashEpochs, shared::kSplashLevels, shared::kSplashSizes,
-    shared::kSplashSorts;
+using shared::kSplashEpoch_s, shared::kSplashLevels, shared::kSplashSizes, shared::kSplashSorts;
 
-constexpr int64_t kEpoch_ns = 62'500'000;
+constexpr int64_t kEpoch_ns = 15'625'000;
 constexpr double kEpoch_s = static_cast<double>(kSplashEpoch_s);
 static_assert(static_cast<double>(kEpoch_ns) == kEpoch_s * 1e9);
 // Cells of the finest level, by sort about as far as its drops' splashes are drawn at 50 mm/h; twice that of
@@ -61,6 +61,40 @@ void findSizes(const rain::SizeLaw& law, double flux, std::array<float, kSplashS
     number += share;
   }
   out[kSplashSizes] = static_cast<float>(number > 0.0 ? 2.0 * sum / number - from_mm : from_mm);
+}
+
+// All drops of a sort and of a level's ranks.
+struct Layer {
+  double flux_per_m2s = 0.0;
+  double cell_m = 0.0;
+  double reach_m = 0.0;    // beyond it none of their splashes is drawn,
+  double longest_s = 0.0;  // and none lasts longer
+};
+
+Layer layerOf(const SplashPicture& picture, uint32_t level, uint32_t sort, double most_m) {
+  const glm::vec2 ranks = shared::splashRanks(level), share = shared::splashSort(sort);
+  const float largest_m = 1e-3f * picture.sizes_mm[static_cast<size_t>(std::lround(share.y * kSplashSizes))];
+  return {
+      .flux_per_m2s = picture.flux_per_m2s * static_cast<double>((ranks.y - ranks.x) * (share.y - share.x)),
+      .cell_m = kCell_m[sort] * std::exp2(level),
+      .reach_m = std::min(most_m, static_cast<double>(shared::splashReach_m(level, largest_m))),
+      .longest_s = static_cast<double>(shared::splashLife_s(largest_m))};
+}
+
+// As told by the rain alone, and in proportion to it: what a view's own number says would change from one
+// picture to the next, and from a view to its neighbour.
+double keptOf(const SplashPicture& picture, double most_m) {
+  double expected = 0.0;
+  for (uint32_t sort = 0; sort < kSplashSorts; ++sort) {
+    for (uint32_t level = 0; level < kSplashLevels; ++level) {
+      const Layer layer = layerOf(picture, level, sort, most_m);
+      const double reach_m = layer.reach_m, cell_m = layer.cell_m;
+      // Of all cells that a circle touches, wherever it lies on them (Steiner's formula).
+      const double area_m2 = (glm::pi<double>() * reach_m + 4.0 * cell_m) * reach_m + cell_m * cell_m;
+      expected += layer.flux_per_m2s * area_m2 * (layer.longest_s + kEpoch_s);
+    }
+  }
+  return std::min(1.0, kMostSplashes / expected);
 }
 
 // A lattice as a view meets it.
@@ -135,17 +169,11 @@ class Cells {
   }
 
   void addLevel(const Lattice& lattice, uint32_t level, uint32_t sort) {
-    const glm::vec2 ranks = shared::splashRanks(level), share = shared::splashSort(sort);
-    const float largest_m =
-        1e-3f * picture_.sizes_mm[static_cast<size_t>(std::lround(share.y * kSplashSizes))];
-    const double cell_m = kCell_m[sort] * std::exp2(level);
-    const double reach_m =
-        std::min(lattice.reach_m, static_cast<double>(shared::splashReach_m(level, largest_m)));
+    const Layer layer = layerOf(picture_, level, sort, lattice.reach_m);
+    const double cell_m = layer.cell_m, reach_m = layer.reach_m;
     const double aside_m = glm::length(slant_) * highest_m(lattice);
-    const SplashesInCells numbers(out_.kept * picture_.flux_per_m2s *
-                                  static_cast<double>((ranks.y - ranks.x) * (share.y - share.x)) * cell_m *
-                                  cell_m * kEpoch_s);
-    longest_s_ = static_cast<double>(shared::splashLife_s(largest_m));
+    const SplashesInCells numbers(out_.kept * layer.flux_per_m2s * cell_m * cell_m * kEpoch_s);
+    longest_s_ = layer.longest_s;
     const dvec2 eye = dvec2(cone_.eye_m - lattice.origin_m) / cell_m,
                 reach = dvec2((reach_m + aside_m) / cell_m);
     const dvec2 first = glm::floor(eye - reach), last = glm::floor(eye + reach);
@@ -169,23 +197,15 @@ class Cells {
     job.x = static_cast<uint32_t>(static_cast<int64_t>(cell.x));
     job.y = static_cast<uint32_t>(static_cast<int64_t>(cell.y));
     job.level = level;
-    for (uint32_t back = 0; back < kSplashEpochs; ++back) {
-      const int64_t begun = epoch - back;
+    for (int64_t begun = epoch;; --begun) {
       job.epoch = static_cast<uint32_t>(begun);
       job.since_s = static_cast<float>(static_cast<double>(time_ns_ - begun * kEpoch_ns) * 1e-9);
-      // The earliest are over, the last are still to come.
-      const auto since_s = static_cast<double>(job.since_s);
-      if (since_s - longest_s_ >= kEpoch_s) return;
-      job.number = numbers.of(job.x, job.y, job.epoch, job.level);
+      if (static_cast<double>(job.since_s) - longest_s_ >= kEpoch_s) return;  // all of those are over
+      const uint32_t number = numbers.of(job.x, job.y, job.epoch, job.level);
+      if (number == 0) continue;
       job.first = out_.count;
-      const auto numberBy = [&](double after_s) {
-        return static_cast<uint32_t>(std::clamp(after_s / kEpoch_s, 0.0, 1.0) * job.number);
-      };
-      job.from = numberBy(since_s - longest_s_);
-      const uint32_t until = std::min(job.number, numberBy(since_s) + 1);
-      if (job.from >= until) continue;
       out_.jobs.push_back(job);
-      out_.count += until - job.from;
+      out_.count += number;
     }
   }
 
@@ -313,14 +333,9 @@ bool setUpSplashes(const SplashPicture& picture, const ViewState& view, int64_t 
     lattices.push_back(on_it);
   }
   for (const Lattice& lattice : lattices) tell(lattice, out.rain);
-  // Thinned in steps of one half, so that which ones are left seldom changes.
-  for (out.kept = 1.0;; out.kept *= 0.5) {
-    out.jobs.clear();
-    out.count = 0;
-    Cells cells(picture, cone, time_ns, out);
-    for (const Lattice& lattice : lattices) cells.add(lattice);
-    if (out.count <= kMostSplashes) break;
-  }
+  out.kept = keptOf(picture, std::min(look.reach_m, kMostSplashReach_m));
+  Cells cells(picture, cone, time_ns, out);
+  for (const Lattice& lattice : lattices) cells.add(lattice);
   out.rain.reach = vec4(reach_m, look.gain / out.kept, 0.0, 0.0);
   tellStarts(out);
   return out.count > 0;

@@ -19,9 +19,9 @@ inline constexpr double kMostSplashReach_m = 40.0;
 // height of a roof.
 inline constexpr double kSplashShelter_m = kMostSplashReach_m + 20.0;
 
-// So many a view looks at, at most (a driver's at 80 km/h in 100 mm/h some 100 000), which takes 13 MB on the
-// GPU; of more all are thinned alike.
-inline constexpr uint32_t kMostSplashes = 1u << 17u;
+// So many a view all about is to look at; where the rain makes more of them all are thinned alike. A driver's
+// sees less than half of them at 80 km/h: some 100 000 in 100 mm/h, which takes 10 MB on the GPU.
+inline constexpr uint32_t kMostSplashes = 1u << 18u;
 
 struct SplashLook {
   double gain = 1.0;  // on what they cover; 0: none
@@ -68,8 +68,8 @@ struct SplashSetup {
   shared::RainShelter shelter;
   std::vector<shared::SplashJob> jobs;
   std::vector<uint32_t> starts;  // the job of every kSplashStride-th splash
-  uint32_t count = 0;            // of all their splashes, but for those that are over or to come
-  double kept = 1.0;             // share of them that there is room for; each counts for the rest
+  uint32_t count = 0;            // of all their splashes
+  double kept = 1.0;             // share of all there are, alike for all views; each counts for the rest
 };
 // False when there is nothing to draw.
 bool setUpSplashes(const SplashPicture& picture, const ViewState& view, int64_t time_ns,

@@ -1,5 +1,6 @@
 #include "surroundings/splashes_gl.h"
 
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -12,7 +13,7 @@ namespace {
 
 using shared::kSplashGroup, shared::SplashJob, shared::SplashPoint;
 
-constexpr GLint kJobCount = 0, kSplashCount = 1;  // the kernel's uniforms
+constexpr GLint kJobCount = 0, kSplashCount = 1, kMost_px = 2;  // the kernel's uniforms
 
 // To a depth buffer that is read, or tested.
 struct Programs {
@@ -43,7 +44,8 @@ struct SplashRenderer::Objects {
   rain::Canvas canvas;
   SplashPicture picture;
   SplashSetup setup;
-  uint32_t groups = 0;  // that there is room for
+  uint32_t groups = 0;   // that there is room for
+  float most_px = 1.0f;  // a point's side
 };
 
 SplashRenderer::Objects::Objects(const gl::Context& context)
@@ -54,6 +56,9 @@ SplashRenderer::Objects::Objects(const gl::Context& context)
       shelter(gl, sizeof(shared::RainShelter)),
       vertices(gl),
       canvas(gl) {
+  std::array<float, 2> sizes_px{};
+  gl.GetFloatv(GL_POINT_SIZE_RANGE, sizes_px.data());
+  most_px = sizes_px[1];
   vertices.attribute(0, 0, 4, GL_FLOAT, offsetof(SplashPoint, place));
   vertices.attribute(1, 0, 4, GL_FLOAT, offsetof(SplashPoint, a));
   vertices.attribute(2, 0, 4, GL_FLOAT, offsetof(SplashPoint, b));
@@ -102,12 +107,18 @@ double SplashRenderer::draw(const rain::RainDraw& draw, const SplashLook& look) 
   programs.find.use();
   programs.find.set(kJobCount, static_cast<uint32_t>(o.setup.jobs.size()));
   programs.find.set(kSplashCount, o.setup.count);
+  programs.find.set(kMost_px, o.most_px);
   gl.DispatchCompute(groups, 1, 1);
   gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   programs.show.use();
   gl.BindVertexArray(o.vertices.name());
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, o.commands.name());
+  // Points are not cut off at the viewport.
+  const glm::ivec4& viewport = draw.viewport_px;
+  gl.ScissorIndexed(0, viewport.x, viewport.y, viewport.z, viewport.w);
+  gl.Enablei(GL_SCISSOR_TEST, 0);
   gl.MultiDrawArraysIndirect(GL_POINTS, nullptr, static_cast<GLsizei>(groups), 0);
+  gl.Disablei(GL_SCISSOR_TEST, 0);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's splashes do not overtake these
   return o.setup.kept;
 }

@@ -21,7 +21,7 @@ class SplashRenderer {
 
   // Call within a state guard; touches what RainRenderer::draw does. Twice the same draw gives the same
   // picture. Where the target's depth cannot be read splashes stand on the ground's height, and there are
-  // none where the host told none. Returns the share that there was room for (SplashSetup::kept).
+  // none where the host told none. Returns the share that was looked at (SplashSetup::kept).
   double draw(const rain::RainDraw& draw, const SplashLook& look);
 
   void forget();  // the context is lost: free nothing

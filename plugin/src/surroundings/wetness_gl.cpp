@@ -44,8 +44,9 @@ void WetnessRenderer::draw(const rain::RainDraw& draw, double strength) {
   const double after_s = static_cast<double>(draw.time_ns - o.picture.time_ns) * 1e-9;
   rain::setUpShelter(o.picture.volumes, cone.eye_m, after_s, *o.volumes);
   const rain::Rays rays = rain::raysOf(cone, *draw.view);
-  // Patches stand still in the host's world; their noise repeats.
-  const glm::dvec2 place_m = glm::mod(glm::dvec2(cone.eye_m), static_cast<double>(shared::kWetRepeat_m));
+  // Patches stand still, wherever the host moves its world; their noise repeats.
+  const glm::dvec2 place_m =
+      glm::mod(glm::dvec2(cone.eye_m - o.picture.origin_m), static_cast<double>(shared::kWetRepeat_m));
   const shared::WetView view{wide(rays.middle), wide(rays.right), wide(rays.up),
                              wide(o.picture.fall_mps, strength), glm::vec4(o.picture.water_mm, place_m, 0.0)};
   o.block.write(0, &view, sizeof view);

@@ -18,6 +18,7 @@ struct WetnessPicture {
   double water_mm = 0.0;                // on open ground
   bool has_volumes = false;             // `volumes` are told; else nothing can be drawn
   glm::dvec3 fall_mps{0.0, 0.0, -1.0};  // of the drops that bring most of it
+  glm::dvec3 origin_m{0.0};             // of its pattern, in the host's world as it is now
   std::vector<rain::NearVolume> volumes;
 };
 
