@@ -106,8 +106,8 @@ class Drops {
   void slide(const DropWorld& world, int slot);
   static bool mayMove(const DropWorld& world, const Drop& drop);
   bool reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_mps, double seconds);
-  void leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres);
-  void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres);
+  void leaveTrail(const DropWorld& world, Drop& drop, glm::dvec2 ahead, double speed_mps, glm::dvec2 metres);
+  void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 ahead, glm::dvec2 metres);
   void takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, glm::dvec2 ahead, double width_m);
   void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm::dvec2 ahead, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);
