@@ -278,6 +278,23 @@ TEST(DropShape, restingDropsAreAsLongAsTheirBondNumberSays) {
   }
 }
 
+// Wind that comes up in air that dries nothing makes them as long as wind that was there from the first.
+TEST(DropShape, restingDropsFollowTheWind) {
+  const auto longAfter = [](double calm_s) {
+    DropScene scene(1e-6, glass::Glass::dirty);
+    scene.place(0.0, 0.0, 2.5e-3, rad(40));
+    const glm::vec2 start = scene.sim->snapshot()->drops.at(0).position_m;
+    scene.run(weather(0.0), calm_s);
+    scene.run(weather(0.0, 7.0), 0.5);
+    const shared::GlassDropRecord drop = scene.sim->snapshot()->drops.at(0);
+    EXPECT_EQ(drop.position_m, start);
+    return static_cast<double>(drop.elongation);
+  };
+  const double at_once = longAfter(0.0);
+  EXPECT_GT(at_once, 1.15);
+  EXPECT_NEAR(longAfter(0.5), at_once, 0.02);  // within 0.01 each is at rest
+}
+
 struct Shape {
   double elongation, corner, way_m;
   glm::dvec2 heading;  // of its head
