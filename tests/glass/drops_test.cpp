@@ -278,6 +278,23 @@ TEST(DropShape, restingDropsAreAsLongAsTheirBondNumberSays) {
   }
 }
 
+// Wind that comes up in air that dries nothing makes them as long as wind that was there from the first.
+TEST(DropShape, restingDropsFollowTheWind) {
+  const auto longAfter = [](double calm_s) {
+    DropScene scene(1e-6, glass::Glass::dirty);
+    scene.place(0.0, 0.0, 2.5e-3, rad(40));
+    const glm::vec2 start = scene.sim->snapshot()->drops.at(0).position_m;
+    scene.run(weather(0.0), calm_s);
+    scene.run(weather(0.0, 7.0), 0.5);
+    const shared::GlassDropRecord drop = scene.sim->snapshot()->drops.at(0);
+    EXPECT_EQ(drop.position_m, start);
+    return static_cast<double>(drop.elongation);
+  };
+  const double at_once = longAfter(0.0);
+  EXPECT_GT(at_once, 1.15);
+  EXPECT_NEAR(longAfter(0.5), at_once, 0.02);  // within 0.01 each is at rest
+}
+
 struct Shape {
   double elongation, corner, way_m;
   glm::dvec2 heading;  // of its head
@@ -318,6 +335,30 @@ TEST(DropShape, onlyTailsThatAreLeftBehindArePointed) {
   const Shape coated = pulled(glass::Glass::coated, {9.0, 0.0}, 0.05);
   EXPECT_GT(coated.way_m, 1e-3);
   EXPECT_EQ(coated.corner, 0.0);
+}
+
+// Pearls lie behind the drop that sheds them, whichever end of its base's axis the heading points to.
+TEST(DropShape, pearlsLieBehindTheTail) {
+  float headings = 0.0f;
+  for (const double way : {1.0, -1.0}) {
+    DropScene scene(1e-6, glass::Glass::dirty);
+    scene.place(0.0, 0.0, 5e-3, rad(45));
+    glass::PaneTick tick = weather(0.0);
+    tick.acceleration_mps2 = {0.0, way * 9.0, -9.81};
+    size_t pearls = 0;
+    while (scene.index < 60) {
+      scene.run(tick, kTickSeconds);
+      const std::vector<shared::GlassDropRecord> seen = scene.sim->snapshot()->drops;
+      const shared::GlassDropRecord& head = seen.at(0);
+      for (size_t i = 1; i < seen.size(); ++i)
+        EXPECT_LT(glm::dot(seen[i].position_m - head.position_m, head.velocity_mps), 0.0f) << scene.index;
+      EXPECT_GE(seen.size(), pearls + 1) << "ran over one of its own";
+      pearls = seen.size() - 1;
+      if (scene.index == 60) headings += glm::dot(head.heading, glm::normalize(head.velocity_mps));
+    }
+    EXPECT_GT(pearls, 3u);
+  }
+  EXPECT_NEAR(headings, 0.0f, 1e-3f) << "both senses are to be tried";
 }
 
 // No step of a tick is greater than what a contact line that runs ahead at its own speed and the drop's does

@@ -130,6 +130,10 @@ TEST(SymmetryLawsInTheMean, windFromEitherSideDoesTheSame) {
     expectNothingLost(s);
     terms.push_back({s.caught_ml, s.on_glass_ml, s.drained_ml, s.blown_ml, s.evaporated_ml});
   }
+  constexpr size_t kDrained = 2, kBlown = 3;
+  double run_off_ml = 0.0;  // of a screen, below and above
+  for (const std::vector<double>& term : terms)
+    run_off_ml += (term[kDrained] + term[kBlown]) / static_cast<double>(terms.size());
   for (size_t k = 0; k < terms[0].size(); ++k) {
     std::array<double, 2> mean{};
     double variance = 0.0;
@@ -139,8 +143,10 @@ TEST(SymmetryLawsInTheMean, windFromEitherSideDoesTheSame) {
     const double error = std::sqrt(variance * 2.0 / kScreens);
     std::printf("%.4f and %.4f mL, standard error %.4f\n", mean[0], mean[1], error);
     EXPECT_NEAR(mean[0], mean[1], kSure * error) << "term " << k;
-    // A few drops of each screen run off below, those that became large enough before they were blown up.
-    EXPECT_LT(error, 0.2 * mean[0]) << "too little to tell, term " << k;
+    // Which way a screen's few large drops leave is their chance, and at some speeds next to none go the one
+    // or the other: of both together it is well told.
+    const double enough_ml = k == kDrained || k == kBlown ? 0.06 * run_off_ml : 0.1 * mean[0];
+    EXPECT_LT(error, enough_ml) << "too little to tell, term " << k;
   }
 }
 

@@ -28,13 +28,14 @@ struct alignas(32) Drop {
 
   int64_t volume_pl = 0;  // 0: the slot is free
   bool moving = false;
-  bool braced = false;             // the two below hold: it rests and has its size and shape of then
+  bool braced = false;             // the three below hold: it rests and has its size and shape of then
   bool changed = false;            // has to be looked at for neighbours it touches
   float acceleration_s2_m = 0.0f;  // share of what holds it that an acceleration of 1 m/s^2 takes
   float air2_s2_m2 = 0.0f;         // ... and air of 1 m/s, with its square
-  int32_t texel = 0;
-  glm::vec2 heading{1.0f, 0.0f};  // along the base
+  float braced_share = 0.0f;       // ... and the forces of its tile, of when it came to rest
+  glm::vec2 heading{1.0f, 0.0f};   // along the base
 
+  int32_t texel = 0;
   glm::vec2 velocity_mps{0.0f};  // real, grid axes
   float height_m = 0.0f;
   float since_pearl_m = 0.0f;  // way since it last left a droplet behind
@@ -106,8 +107,8 @@ class Drops {
   void slide(const DropWorld& world, int slot);
   static bool mayMove(const DropWorld& world, const Drop& drop);
   bool reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_mps, double seconds);
-  void leaveTrail(const DropWorld& world, Drop& drop, double way_m, double speed_mps, glm::dvec2 metres);
-  void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 metres);
+  void leaveTrail(const DropWorld& world, Drop& drop, glm::dvec2 ahead, double speed_mps, glm::dvec2 metres);
+  void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 ahead, glm::dvec2 metres);
   void takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, glm::dvec2 ahead, double width_m);
   void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm::dvec2 ahead, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);

@@ -164,8 +164,7 @@ void PaneMap::findDirections() {
     least_cosine = std::min(least_cosine, glm::dot(glm::dvec3(t.normal), normal));
   }
   // Normals are rounded to floats.
-  if (least_cosine > 0.0)
-    most_bent_sine_ = std::min(1.0, std::sqrt(1.0 - least_cosine * least_cosine) + 1e-5);
+  if (least_cosine > 0.0) most_bent_sine_ = std::sqrt(1.0 - least_cosine * least_cosine) + 1e-5;
   mean_up_ = up;
   glassFromGrid_ = glm::dmat2(glm::dot(along_x, right), glm::dot(along_x, up), glm::dot(along_y, right),
                               glm::dot(along_y, up));

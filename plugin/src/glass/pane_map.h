@@ -91,7 +91,8 @@ class PaneMap {
   bool rightHanded() const { return right_handed_; }  // along x cross along y points out of the glass
   glm::dvec2 up() const { return up_; }               // unit, grid axes: from the lower to the upper edge
   const glm::dvec3& meanNormal() const { return mean_normal_; }  // unit, outward, vehicle frame
-  // No normal of the glass is farther from the mean one than the angle of this sine; 1: some look away.
+  // No normal of the glass is farther from the mean one than the angle of this sine; 2, which no stream
+  // reaches: some look away.
   double mostBentSine() const { return most_bent_sine_; }
   const glm::dvec3& meanUp() const { return mean_up_; }  // unit, up along the mean glass
   // What a shift along the mean glass is in PaneNode's across and height.
@@ -140,7 +141,7 @@ class PaneMap {
   double area_m2_ = 0.0, least_texel_m2_ = 0.0, most_texel_m2_ = 0.0;
   glm::dvec2 middle_m_{0.0}, up_{0.0, 1.0};
   glm::dvec3 mean_normal_{0.0, 0.0, 1.0}, mean_up_{1.0, 0.0, 0.0};
-  double most_bent_sine_ = 1.0;
+  double most_bent_sine_ = 2.0;
   glm::dvec2 glass_extent_m_{1.0};
   glm::dmat2 gridFromGlass_{1.0}, glassFromGrid_{1.0};
   bool right_handed_ = true;
