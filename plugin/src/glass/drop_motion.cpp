@@ -149,14 +149,18 @@ bool Drops::reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_m
     const double line_mps = grows ? advancing_mps_ : receding_mps_;
     return 1.0 - std::exp(-seconds * (speed_mps + line_mps) / radius_m);
   };
-  const glm::dvec2 strain = now + (aim - now) * share(wanted > longer);
+  const bool grows = wanted > longer,
+             sharpens = std::abs(corner) > std::abs(static_cast<double>(drop.corner));
+  const double of_length = share(grows), of_corner = grows == sharpens ? of_length : share(sharpens);
+  const glm::dvec2 strain = now + (aim - now) * of_length;
   const double length = glm::length(strain);
   drop.elongation = static_cast<float>(1.0 + length);
   if (length > 1e-6) drop.heading = glm::vec2(halfTurned(strain / length, heading));
-  drop.corner += static_cast<float>(corner_off * share(std::abs(corner) > std::abs(corner - corner_off)));
-  drop.height_m = heightOf_m(drop);
+  drop.corner += static_cast<float>(corner_off * of_corner);
+  if (!drop.moving)
+    drop.height_m = heightOf_m(drop);  // of others it is worked out once they left their trail
   noteWidth(drop);
-  return false;
+  return glm::length(aim - strain) < kThere && std::abs(corner_off) * (1.0 - of_corner) < kThere;
 }
 
 // A fast drop passes more than a texel in a tick.
