@@ -50,9 +50,12 @@ void wake(int texel) { states[texel / info.columns / kTileSize * tilesAcross() +
 
 // In a test build one of these loses 1 % of what passes through it: FilmKernel of pane_gl.h.
 const int kTake = 1, kAdd = 2, kRidge = 3, kSweep = 4, kLeave = 5, kFlow = 6, kBeadAdd = 7, kBead = 8;
+#ifdef RG_LEAKS
+layout(location = 8) uniform int leaky_kernel;
+#endif
 int passed(int kernel, int volume_pl) {
-#ifdef RG_LEAK
-  if (kernel == RG_LEAK) return volume_pl - volume_pl / 100;
+#ifdef RG_LEAKS
+  if (kernel == leaky_kernel) return volume_pl - volume_pl / 100;
 #endif
   return volume_pl;
 }

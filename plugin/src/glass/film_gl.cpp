@@ -14,8 +14,15 @@ namespace {
 std::vector<std::string> defines(FilmKernel leaky, bool software) {
   std::vector<std::string> all;
   if (software) all.emplace_back("RG_SOFTWARE_GL");
-  if (leaky != FilmKernel::none) all.push_back("RG_LEAK " + std::to_string(static_cast<int>(leaky)));
+  if (leaky != FilmKernel::none) all.emplace_back("RG_LEAKS");
   return all;
+}
+
+// Of a program in which some kernel may leak. Which one it is, is told, so that all are compiled once.
+void tellLeak(const GladGLContext& gl, const gl::Program& program, FilmKernel leaky) {
+  if (leaky == FilmKernel::none) return;
+  const GLint place = gl.GetUniformLocation(program.name(), "leaky_kernel");
+  if (place >= 0) program.set(place, static_cast<int32_t>(leaky));
 }
 
 template <typename T>
@@ -51,7 +58,10 @@ FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool softw
       leave(gl, {"glass/film_leave.comp"}, defines(leaky, software)),
       wake(gl, {"glass/film_wake.comp"}, defines(leaky, software)),
       dry(gl, {"glass/film_dry.comp"}, defines(leaky, software)),
-      flow(gl, {"glass/film_flow.comp"}, defines(leaky, software)) {}
+      flow(gl, {"glass/film_flow.comp"}, defines(leaky, software)) {
+  for (const gl::Program* program : {&change, &sweep, &leave, &wake, &dry, &flow})
+    tellLeak(gl, *program, leaky);
+}
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
   const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
