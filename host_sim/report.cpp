@@ -34,6 +34,7 @@ Json pane(const std::string& name, const rg_pane_stats& p) {
           {"area_m2", p.area_m2},
           {"drops", p.drops},
           {"caught_ml", p.caught_ml},
+          {"run_on_ml", p.run_on_ml},
           {"on_glass_ml", p.on_glass_ml},
           {"drained_ml", p.drained_ml},
           {"wiped_ml", p.wiped_ml},

@@ -139,7 +139,7 @@ void Simulation::tickWipers() {
     if (tick_ % kSensorTicks == 0 && !car_.wipers.empty()) {
       plugin_.update(hostTickNs(tick_ - 1));
       const rg_pane_stats seen = plugin_.paneStats(car_.wipers.front().pane_index);
-      sensor_.sense(seen.caught_ml * 1e-6, seen.area_m2, t);
+      sensor_.sense((seen.caught_ml - seen.run_on_ml) * 1e-6, seen.area_m2, t);
     }
     motor_.setMode(sensor_.mode(), sensor_.pause_s());
   }

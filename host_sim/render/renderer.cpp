@@ -8,6 +8,8 @@
 #include "render/car_mirrors.h"
 #include "render/draw_list.h"
 #include "render/environment.h"
+#include "render/filters.h"
+#include "render/glares.h"
 #include "render/gpu_scene.h"
 #include "render/instance.h"
 #include "render/painter.h"
@@ -47,10 +49,8 @@ struct Renderer::Self {
         painter(gl),
         background(gl, {"full.vert"}, {"frame.glsl", "background.frag"}),
         picture_background(gl, {"full.vert"}, {"latlong.glsl", "background.frag"}, {"PICTURE"}),
-        compressing(gl, {"full.vert"}, {"smooth.frag"}, {"COMPRESS"}),
-        smoothing(gl, {"full.vert"}, {"smooth.frag"}),
-        tone(gl, {"full.vert"}, {"tone.frag"}),
-        glare(gl, {"frame.glsl", "glare.vert"}, {"glare.frag"}),
+        filters(gl),
+        glare_painter(gl),
         reflecting(gl, {"mirror.vert"}, {"mirror.frag"}) {
     gl.CreateVertexArrays(1, &no_vertices);
   }
@@ -68,7 +68,10 @@ struct Renderer::Self {
   Environment environment;
   Shadow shadow;
   Painter painter;
-  Program background, picture_background, compressing, smoothing, tone, glare, reflecting;
+  Program background, picture_background;
+  Filters filters;
+  GlarePainter glare_painter;
+  Program reflecting;
   GLuint no_vertices = 0;
   struct CarMirror {
     InstanceId car;
@@ -79,7 +82,6 @@ struct Renderer::Self {
   };
   std::vector<CarMirror> mirrors;
   std::unique_ptr<MirrorPicture> mirror_picture;
-  std::unique_ptr<ColourPicture> unsmoothed;
   const Instance* nearest_car = nullptr;  ///< its wheels stand on the ground that mirrors, and it shades it
   std::deque<GpuScene> scenes;
   std::deque<Instance> instances;
@@ -92,20 +94,16 @@ struct Renderer::Self {
 
   bool isRoad(const Instance& instance) const { return instance.scene->frame == SceneFrame::Road; }
   What world() const;
-  void paintGlares(const View& view, glm::ivec2 size_px);
   void placeGrids();
   void gatherLamps(glm::dvec3 eye_m);
   FrameBlock frameFor(const View& view, glm::ivec2 size_px, glm::dvec3 eye_m) const;
   void findCar(glm::dvec3 eye_m);
   bool paintMirror(const View& view, glm::ivec2 size_px, const What& what);
   Painted paintCarMirror(CarMirror& mirror, const View& view, const Target& target);
-  void begin(GLuint framebuffer, glm::ivec2 size_px);
+  void begin(GLuint framebuffer, glm::ivec2 size_px) { beginPicture(gl, framebuffer, size_px); }
   Painted paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size,
                     bool mirror = false);
   void paintSky(const glm::mat4& clip_from_rel);
-  void smooth(const Target& target, double exposure);
-  void fill(const Program& program, GLuint from, GLuint framebuffer, glm::ivec2 size_px);
-  void writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve);
   glm::vec4 lightAt(glm::dvec3 point_m, float& share) const;
 
   template <typename Work>
@@ -156,39 +154,6 @@ Renderer::Self::What Renderer::Self::world() const {
   return what;
 }
 
-/// Stands a little before its lamp, so that the lamp's own mesh does not hide it.
-void Renderer::Self::paintGlares(const View& view, glm::ivec2 size_px) {
-  constexpr float kBefore_m = 0.35F;
-  constexpr float kDrawnWell_px = 2.5F;  // radius
-  const glm::dvec3 eye_m = eyeOf(view.eye_from_world);
-  gl.Enable(GL_BLEND);
-  gl.BlendFunc(GL_ONE, GL_ONE);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.DepthFunc(GL_GREATER);
-  gl.DepthMask(GL_FALSE);
-  gl.Disable(GL_CULL_FACE);
-  gl.BindVertexArray(no_vertices);
-  glare.use();
-  glare.set("u_focal", 0.5F * glm::vec2(size_px) *
-                           glm::vec2(static_cast<float>(view.projection[0][0]),
-                                     static_cast<float>(view.projection[1][1])));
-  for (const Glare& lamp : glares) {
-    const glm::vec3 place(lamp.position_m - eye_m);
-    const float distance_m = std::max(glm::length(place), 2.0F * kBefore_m);
-    const float radius_px =
-        lamp.radius_m / distance_m * 0.5F * static_cast<float>(size_px.y * view.projection[1][1]);
-    const float shown = lamp.mesh_glows ? glm::clamp(kDrawnWell_px - radius_px, 0.0F, 1.0F) : 1.0F;
-    if (shown <= 0.0F) continue;
-    const float clear = std::exp(-static_cast<float>(extinction(sky)) * distance_m);
-    const float area_m2 = 3.14159F * lamp.radius_m * lamp.radius_m;
-    glare.set("u_place", glm::vec4(place * (1.0F - kBefore_m / distance_m), lamp.radius_m));
-    glare.set("u_radiance", lamp.intensity * (shown * clear / area_m2));
-    gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  }
-  gl.DepthMask(GL_TRUE);
-  gl.Disable(GL_BLEND);
-}
-
 void Renderer::Self::findCar(glm::dvec3 eye_m) {
   nearest_car = nullptr;
   double nearest_m = 30.0;
@@ -220,17 +185,6 @@ FrameBlock Renderer::Self::frameFor(const View& view, glm::ivec2 size_px, glm::d
   frame.car_from_rel = glm::mat4(glm::inverse(rel_from_car));
   frame.car = nearest_car->scene->footprint;
   return frame;
-}
-
-void Renderer::Self::begin(GLuint framebuffer, glm::ivec2 size_px) {
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl.Viewport(0, 0, size_px.x, size_px.y);
-  gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl.DepthMask(GL_TRUE);
-  gl.Disable(GL_BLEND);
-  gl.Disable(GL_SCISSOR_TEST);
-  gl.FrontFace(GL_CCW);
 }
 
 Painted Renderer::Self::paintFrom(const View& view, glm::ivec2 size_px, const What& what, float least_size,
@@ -350,33 +304,6 @@ void Renderer::Self::paintSky(const glm::mat4& clip_from_rel) {
   gl.DepthMask(GL_TRUE);
 }
 
-void Renderer::Self::smooth(const Target& target, double exposure) {
-  if (!unsmoothed || unsmoothed->sizePx() != target.sizePx())
-    unsmoothed = std::make_unique<ColourPicture>(gl, target.sizePx());
-  compressing.set("u_exposure", static_cast<float>(exposure));
-  fill(compressing, target.colour(), unsmoothed->framebuffer(), target.sizePx());
-  smoothing.set("u_texel", 1.0F / glm::vec2(target.sizePx()));
-  smoothing.set("u_exposure", static_cast<float>(exposure));
-  fill(smoothing, unsmoothed->texture(), target.framebuffer(), target.sizePx());
-}
-
-// Each pixel of a picture from another picture.
-void Renderer::Self::fill(const Program& program, GLuint from, GLuint framebuffer, glm::ivec2 size_px) {
-  begin(framebuffer, size_px);
-  gl.Disable(GL_DEPTH_TEST);
-  gl.Disable(GL_CULL_FACE);
-  gl.BindTextureUnit(0, from);
-  program.use();
-  gl.BindVertexArray(no_vertices);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-void Renderer::Self::writePicture(const Target& target, GLuint framebuffer, double exposure, bool curve) {
-  tone.set("u_exposure", static_cast<float>(exposure));
-  tone.set("u_curve", curve ? 1 : 0);
-  fill(tone, target.colour(), framebuffer, target.sizePx());
-}
-
 glm::vec4 Renderer::Self::lightAt(glm::dvec3 point_m, float& share) const {
   glm::vec4 light(0.0F);
   share = 0.0F;
@@ -479,7 +406,7 @@ void Renderer::drawWorld(const View& view, const Target& target, std::span<const
   self.timed("world", [&] {
     const Painted painted = self.paintFrom(view, target.sizePx(), what, 0.001F, mirror);
     self.paintSky(turnedOnly(view));
-    self.paintGlares(view, target.sizePx());
+    self.glare_painter.paint(self.glares, view, target.sizePx(), extinction(self.sky));
     return painted;
   });
 }
@@ -522,20 +449,20 @@ void Renderer::drawScene(std::uint32_t framebuffer, glm::ivec2 size_px, const gl
 
 void Renderer::smooth(const Target& target, double exposure) {
   self_->timed("smooth", [&] {
-    self_->smooth(target, exposure);
+    self_->filters.smooth(target, exposure);
     return Painted{};
   });
 }
 
 void Renderer::toneMap(const Target& target, std::uint32_t framebuffer, double exposure) {
   self_->timed("tone", [&] {
-    self_->writePicture(target, framebuffer, exposure, true);
+    self_->filters.write(target, framebuffer, exposure, true);
     return Painted{};
   });
 }
 
 void Renderer::encodeSrgb(const Target& target, std::uint32_t framebuffer, double exposure) {
-  self_->writePicture(target, framebuffer, exposure, false);
+  self_->filters.write(target, framebuffer, exposure, false);
 }
 
 double Renderer::skyVisibility(glm::dvec3 point_m) const {

@@ -95,4 +95,15 @@ std::vector<std::uint8_t> Picture::read() const {
   return top_first;
 }
 
+void beginPicture(const GladGLContext& gl, GLuint framebuffer, glm::ivec2 size_px) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.Viewport(0, 0, size_px.x, size_px.y);
+  gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_SCISSOR_TEST);
+  gl.FrontFace(GL_CCW);
+}
+
 }  // namespace host

@@ -86,4 +86,8 @@ class Picture {
   GLuint framebuffer_ = 0, colour_ = 0;
 };
 
+/// Binds it and sets what all passes of this host draw with: its viewport, reversed depth, all masks open, no
+/// blending, no scissors, counter-clockwise faces.
+void beginPicture(const GladGLContext& gl, GLuint framebuffer, glm::ivec2 size_px);
+
 }  // namespace host

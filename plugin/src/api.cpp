@@ -276,6 +276,7 @@ rg_result getPaneStats(rg_instance* instance, uint32_t pane, rg_pane_stats* out)
     r.drops_ml = static_cast<double>(s.drops_pl + s.beads_pl) * kMl;
     r.ridge_ml = static_cast<double>(s.ridge_pl) * kMl;
     r.dropped_s = static_cast<double>(s.dropped_ticks) * kTickSeconds;
+    r.run_on_ml = static_cast<double>(s.run_on_pl) * kMl;
     const double found_ml = r.on_glass_ml + r.drained_ml + r.wiped_ml + r.blown_ml + r.evaporated_ml;
     r.ledger_error = std::abs(r.caught_ml - found_ml) / std::max(r.caught_ml, 1.0);
     writeStruct(out, r, "rg_pane_stats");

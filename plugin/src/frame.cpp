@@ -65,6 +65,7 @@ void Frame::removeVehicle(uint32_t id) {
   for (const auto& [pane_id, p] : panes_) {
     if (p.vehicle != id) continue;
     removeWipersOf(pane_id);
+    partPane(pane_id);
     std::erase_if(washes_, [&](const WashObject& wash) { return wash.pane == pane_id; });
     timeline_.removeOpening(pane_id);
   }
@@ -93,7 +94,40 @@ void Frame::setPane(uint32_t id, uint32_t vehicle, bool active, const glass::Pan
   if (gl_) object.sim->attachFilm();
   std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });  // the glass is another
   timeline_.removeOpening(id);
+  partPane(id);
   panes_[id] = std::move(object);
+  joinPane(id);
+}
+
+// What runs off one pane may come onto another of the same car; mirrors stand apart from the body.
+void Frame::joinPane(uint32_t id) {
+  const PaneObject& here = panes_.at(id);
+  for (const auto& [other_id, other] : panes_) {
+    if (other_id == id || other.vehicle != here.vehicle || here.mirror > 0.0 || other.mirror > 0.0) continue;
+    const auto join = [this](uint32_t from, uint32_t to) {
+      auto pillar = std::make_shared<glass::Pillar>(panes_.at(from).sim->map(), panes_.at(to).sim->map());
+      if (pillar->joins()) pillars_[{from, to}] = std::move(pillar);
+    };
+    join(id, other_id);
+    join(other_id, id);
+  }
+  tellPillars();
+}
+
+void Frame::partPane(uint32_t id) {
+  std::erase_if(pillars_, [id](const auto& p) { return p.first.first == id || p.first.second == id; });
+  tellPillars();
+}
+
+void Frame::tellPillars() {
+  for (auto& [id, p] : panes_) {
+    std::vector<std::shared_ptr<glass::Pillar>> off, on;
+    for (const auto& [between, pillar] : pillars_) {
+      if (between.first == id) off.push_back(pillar);
+      if (between.second == id) on.push_back(pillar);
+    }
+    p.sim->setPillars(std::move(off), std::move(on));
+  }
 }
 
 PaneObject& Frame::pane(uint32_t id) {
@@ -122,6 +156,7 @@ void Frame::removePane(uint32_t id) {
   removeWipersOf(id);
   std::erase_if(washes_, [id](const WashObject& wash) { return wash.pane == id; });
   timeline_.removeOpening(id);
+  partPane(id);
   panes_.erase(id);
 }
 
@@ -246,6 +281,7 @@ void Frame::reset() {
     p.left_out_ticks = 0;
   }
   started_ = false;
+  glass_moment_ = 0;
   prewarm_ticks_ = 0;
   field_.publishAll(upload_);
   publishBeyond();

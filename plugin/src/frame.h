@@ -17,6 +17,7 @@
 #include "glass/look_gl.h"
 #include "glass/pane.h"
 #include "glass/pane_gl.h"
+#include "glass/pillar.h"
 #include "glass/washer.h"
 #include "last_error.h"
 #include "rain/beyond.h"
@@ -142,6 +143,9 @@ class Frame {
   void tickWashes(uint32_t pane, const Tick& tick, glass::PaneTick& out);
   void tickFog(PaneObject& pane, const glass::PaneTick& tick) const;
   void updateShelter(PaneObject& pane, const VehicleState& vehicle, const Tick& tick, double opening_m);
+  void joinPane(uint32_t id);
+  void partPane(uint32_t id);
+  void tellPillars();
   PaneObject& pane(uint32_t id);
   double openingOf_m(uint32_t id, const PaneObject& pane, int64_t time_ns) const;
   void removeWipersOf(uint32_t pane);
@@ -171,6 +175,7 @@ class Frame {
   uint32_t pattern_version_ = 1;
   std::map<uint32_t, PaneObject> panes_;
   std::map<uint32_t, WiperObject> wipers_;
+  std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<glass::Pillar>> pillars_;  // from pane, to pane
   std::vector<WashObject> washes_;        // in the order they were asked for
   std::map<uint32_t, uint32_t> volumes_;  // id -> vehicle
   Settings settings_;
@@ -179,6 +184,7 @@ class Frame {
   uint32_t capacity_;
   bool started_ = false;
   int64_t next_tick_ = 0;
+  int64_t glass_moment_ = 0;  // of PaneTick
   int64_t prewarm_ticks_ = 0;
   // What falls on the glass, as of `glass_rates_`, and of which class of the rain's each is.
   std::array<glass::SizeClass, glass::kMaxSizeClasses> classes_{};

@@ -167,7 +167,9 @@ void Frame::finishGlass() {
   if (!gl_) return;
   const gl::StateGuard guarded = gl_->guard(kStepTouches);
   syncPanes(*gl_);
-  for (auto& [id, half] : gl_->panes) half.gl->finish();
+  std::vector<glass::PaneGl*> panes;
+  for (auto& [id, half] : gl_->panes) panes.push_back(half.gl.get());
+  glass::PaneGl::finish(panes);
 }
 
 void Frame::stepGpu() {

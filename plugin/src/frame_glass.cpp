@@ -102,6 +102,7 @@ void Frame::tickGlass(const Tick& tick) {
     class_count_ = on_glass.count;
     glass_fall_mps_ = typicalFall_mps(rates, on_glass);
   }
+  ++glass_moment_;
   for (auto& [id, p] : panes_) {
     if (!p.active) continue;
     const auto vehicle = std::ranges::find(tick.vehicles, p.vehicle, &VehicleState::id);
@@ -109,6 +110,8 @@ void Frame::tickGlass(const Tick& tick) {
     glass::PaneTick t;
     const glm::dquat vehicleFromWorld = glm::conjugate(vehicle->pose.orientation);
     t.index = ++p.tick;
+    t.moment = glass_moment_;
+    t.run_off = settings_.glass_run_off;
     t.acceleration_mps2 = vehicleFromWorld * (kWeight_mps2 - vehicle->acceleration_mps2);
     t.air_mps =
         vehicleFromWorld * (wind_profile_.air_share * tick.weather.wind_mps - vehicle->pose.velocity_mps);

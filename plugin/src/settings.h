@@ -22,6 +22,7 @@ struct Settings {
   double glass_brightness = 1.0;
   double glass_blur = 1.0;
   double glass_pupil_m = 0.0;
+  double glass_run_off = 0.5;
   double glass_internal_reflections = 3.0;
   double glass_capture_px = 256.0;
   double fog_cabin_temperature_c = 20.0;
@@ -96,6 +97,11 @@ inline constexpr SettingInfo kSettings[] = {
      "width of the pupil of the eye or camera, which is focused on what is far: drops on glass that it looks "
      "through, that wide or less, dissolve, where depth_texture is given; 0 = all is sharp",
      0.0, 0.05, &Settings::glass_pupil_m},
+    {"glass.run_off", "1", "glass",
+     "share of the water that runs off a pane at a pillar and goes on over the pane behind it; 0 = the car "
+     "has "
+     "gutters there",
+     0.0, 1.0, &Settings::glass_run_off},
     {"glass.internal_reflections", "1", "glass", "followed inside a drop", 0.0, 6.0,
      &Settings::glass_internal_reflections},
     {"glass.capture_px", "px", "glass", "side of a face of the captured surroundings", 32.0, 2048.0,

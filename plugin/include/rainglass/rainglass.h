@@ -62,7 +62,7 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 6u
+#define RG_ABI_MINOR 7u
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -473,6 +473,8 @@ typedef struct rg_pane_stats {
   /* Since minor 3. */
   double dropped_s; /* time that was left out for this pane since it was made or reset: of stalls longer than
                        time.catch_up_s, and while step_gpu did not come for more than 4 s */
+  /* Since minor 7. */
+  double run_on_ml; /* of caught: ran off other panes of its vehicle and round the pillar (glass.run_off) */
 } rg_pane_stats;
 
 typedef struct rg_stage_stats {

@@ -49,6 +49,7 @@ float greatestShare(const DropWorld& world, const Drop& drop) {
 void Drops::move(const DropWorld& world) {
   const auto phase = static_cast<int>((world.tick % kRestStride + kRestStride) % kRestStride);
   const int count = static_cast<int>(slots_.items.size());
+  over_edges_.clear();
   for (int slot = 0; slot < count; ++slot) {
     const Drop& drop = slots_.items[static_cast<size_t>(slot)];
     if (drop.volume_pl == 0) continue;
@@ -200,6 +201,7 @@ bool Drops::overEdge(const DropWorld& world, int slot, int texel) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const bool upward = glm::dot(glm::dvec2(drop.velocity_mps), world.map.up()) >
                       0.5 * static_cast<double>(glm::length(drop.velocity_mps));
+  over_edges_.push_back({drop.texel, drop.volume_pl});
   (upward ? world.ledger.blown_pl : world.ledger.drained_pl) += remove(slot);
   return true;
 }

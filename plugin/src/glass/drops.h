@@ -66,6 +66,12 @@ struct DropWorld {
   double saturated_kg_m3 = 0.0;
 };
 
+// One that ran over the pane's edge, from this texel.
+struct GoneDrop {
+  int texel = 0;
+  int64_t volume_pl = 0;
+};
+
 class Drops {
  public:
   Drops(const PaneMap& map, const Surface& surface, uint32_t capacity);
@@ -92,9 +98,10 @@ class Drops {
   // Takes all of a drop but `keep_pl` and says how much that was; nothing worth a drop is kept.
   int64_t cut(int slot, int64_t keep_pl);
 
-  void move(const DropWorld& world);   // forces, sliding, trails, the pane's edge
-  void merge(const DropWorld& world);  // those that touch become one
-  void age(const DropWorld& world);    // evaporation, dissolving in film
+  void move(const DropWorld& world);  // forces, sliding, trails, the pane's edge
+  const std::vector<GoneDrop>& overEdges() const { return over_edges_; }  // in the last move()
+  void merge(const DropWorld& world);                                     // those that touch become one
+  void age(const DropWorld& world);                                       // evaporation, dissolving in film
 
   uint64_t hash(uint64_t start) const;
 
@@ -147,6 +154,7 @@ class Drops {
   static constexpr double kCell_m = 8e-3;  // of the neighbour grid: few drops are wider
   glm::ivec2 cell_count_{0};
   std::vector<int32_t> changed_;
+  std::vector<GoneDrop> over_edges_;
   uint32_t live_ = 0;
   double shape_advancing_, shape_receding_, shape_mean_;  // V / R^3 at these angles
   double least_bead_m3_, most_bead_m3_;                   // that some texel holds alone, of all of them

@@ -226,17 +226,11 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
   return true;
 }
 
-size_t FilmLink::tileOf(int texel) const {
-  const int x = texel % map_.grid().size.x / shared::kTileSize,
-            y = texel / map_.grid().size.x / shared::kTileSize;
-  return static_cast<size_t>(y * map_.tileCount().x + x);
-}
-
 double FilmLink::thickness_m(int texel) const {
-  return static_cast<double>(tile_thickness_m_[tileOf(texel)]);
+  return static_cast<double>(tile_thickness_m_[map_.tileOf(texel)]);
 }
 
-bool FilmLink::watered(int texel) const { return tile_watered_[tileOf(texel)]; }
+bool FilmLink::watered(int texel) const { return tile_watered_[map_.tileOf(texel)]; }
 
 int64_t FilmLink::travelling_pl() const {
   int64_t sum = gathered_pl_;

@@ -107,7 +107,6 @@ class FilmLink {
   std::deque<std::vector<Taker>> report_takers_;
   std::vector<float> tile_thickness_m_;
   std::vector<bool> tile_watered_;
-  size_t tileOf(int texel) const;
   int64_t film_pl_ = 0, beads_pl_ = 0, ridge_pl_ = 0;
 };
 

@@ -7,7 +7,8 @@
 namespace rg::glass {
 
 struct Ledger {
-  int64_t caught_pl = 0;
+  int64_t caught_pl = 0;   // from the sky, jets, lists of drops and other panes
+  int64_t run_on_pl = 0;   // of it: ran off other panes, see pillar.h
   int64_t drained_pl = 0;  // over the lower edge and the pillars
   int64_t wiped_pl = 0;    // thrown off by blades
   int64_t blown_pl = 0;    // over the upper edge

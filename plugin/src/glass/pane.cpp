@@ -1,5 +1,6 @@
 #include "glass/pane.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "glass/drops.h"
 #include "glass/film_link.h"
 #include "glass/impact.h"
+#include "glass/pillar.h"
 #include "glass/random.h"
 #include "glass/slide.h"
 #include "glass/uneven_glass.h"
@@ -91,7 +93,11 @@ struct PaneSim::State {
             now.humidity,
             saturatedVapour_kg_m3(now.temperature_c)};
   }
-  bool ready() const { return (ticks + 1) % kTicksPerFilmStep != 0 || film.reported(stepUsedBy(ticks + 1)); }
+  bool ready() const {
+    const int64_t moment = waiting.front().tick.moment;
+    return ((ticks + 1) % kTicksPerFilmStep != 0 || film.reported(stepUsedBy(ticks + 1))) &&
+           std::ranges::all_of(pillars_on, [moment](const auto& pillar) { return pillar->knows(moment); });
+  }
   static int64_t stepUsedBy(int64_t tick) { return (tick - kReportLatency_ticks) / kTicksPerFilmStep; }
   void runWaiting();
   void leaveOutATick();
@@ -99,6 +105,13 @@ struct PaneSim::State {
   void slideWindow();
   void useReport();
   void catchRain();
+  void catchRunOff();
+  void addDrop(glm::dvec2 place_m, int texel, int64_t volume_pl);
+  double restingRadius_m(int64_t volume_pl) const {
+    return std::cbrt(cubicMetres(volume_pl) / capShape(meanAngle(surface)));
+  }
+  void runOff(size_t tile, int64_t volume_pl) const;
+  void tellOwed() const;
   void wash(const Washing& washing, uint32_t number);
   void closeFilmStep();
   void place(std::span<const PlacedDrop> list);
@@ -141,6 +154,7 @@ struct PaneSim::State {
   PaneTick now;
   int64_t ticks = 0;  // run since the pane was made
   std::deque<Waiting> waiting;
+  std::vector<std::shared_ptr<Pillar>> pillars_off, pillars_on;  // to other panes, from them
   uint64_t dropped_ticks = 0;
   mutable std::shared_ptr<const PaneSnapshot> snapshot;  // null: to be made
 };
@@ -154,9 +168,11 @@ void PaneSim::State::run(const PaneTick& tick) {
   forces.make(map, tick.acceleration_mps2, tick.air_mps, tick.opening_m * slide.direction());
   if (ticks % kTicksPerFilmStep == 0) useReport();
   catchRain();
+  catchRunOff();
   for (uint32_t i = 0; i < tick.washing_count; ++i) wash(tick.washings[i], i);
   const DropWorld shared_world = world();
   drops.move(shared_world);
+  for (const GoneDrop& gone : drops.overEdges()) runOff(map.tileOf(gone.texel), gone.volume_pl);
   drops.merge(shared_world);
   for (uint32_t i = 0; i < tick.wiper_count; ++i) blades.stroke(shared_world, drops, tick.wipers[i]);
   drops.age(shared_world);
@@ -195,6 +211,26 @@ void PaneSim::State::catchRain() {
   }
 }
 
+void PaneSim::State::catchRunOff() {
+  for (const auto& pillar : pillars_on) {
+    for (const Trickle& trickle : pillar->arrived(now.moment)) {
+      if (!map.shown(trickle.texel)) continue;
+      ledger.caught_pl += trickle.volume_pl;
+      ledger.run_on_pl += trickle.volume_pl;
+      addDrop(map.middleOf(trickle.texel), trickle.texel, trickle.volume_pl);
+    }
+  }
+}
+
+void PaneSim::State::runOff(size_t tile, int64_t volume_pl) const {
+  for (const auto& pillar : pillars_off) pillar->give(now.moment, tile, volume_pl, now.run_off);
+}
+
+void PaneSim::State::tellOwed() const {
+  for (const auto& pillar : pillars_off)
+    pillar->owes(waiting.empty() ? Pillar::kNone : waiting.front().tick.moment);
+}
+
 // A jet hits the glass and spreads there: its water is film at once.
 void PaneSim::State::wash(const Washing& washing, uint32_t number) {
   constexpr int64_t kParcels = 16;
@@ -222,14 +258,20 @@ void PaneSim::State::useReport() {
     else
       drops.give(shared_world, takers[i], report.taken_pl[i]);
   }
+  for (size_t i = 0; i < report.tiles.size() && !pillars_off.empty(); ++i)
+    runOff(i, int64_t{report.tiles[i].drained_pl} + report.tiles[i].blown_pl);
   for (const shared::FilmTile& tile : report.tiles) {
     if (tile.event_texel < 0 || tile.event_pl <= 0) continue;
-    const uint32_t h =
-        shared::pcg(static_cast<uint32_t>(tile.event_texel) ^ shared::pcg(static_cast<uint32_t>(now.index)));
-    const double radius_m = std::cbrt(cubicMetres(tile.event_pl) / capShape(meanAngle(surface)));
-    if (drops.add(shared_world, beadPlace(map, tile.event_texel, radius_m), tile.event_pl, radius_m, h) < 0)
-      film.add(tile.event_texel, tile.event_pl);
+    addDrop(beadPlace(map, tile.event_texel, restingRadius_m(tile.event_pl)), tile.event_texel,
+            tile.event_pl);
   }
+}
+
+// Film where there is no room for another.
+void PaneSim::State::addDrop(glm::dvec2 place_m, int texel, int64_t volume_pl) {
+  const uint32_t h =
+      shared::pcg(static_cast<uint32_t>(texel) ^ shared::pcg(static_cast<uint32_t>(now.index)));
+  if (drops.add(world(), place_m, volume_pl, restingRadius_m(volume_pl), h) < 0) film.add(texel, volume_pl);
 }
 
 void PaneSim::State::closeFilmStep() {
@@ -271,6 +313,7 @@ void PaneSim::State::runWaiting() {
     run(next.tick);
     place(next.placed);
   }
+  tellOwed();
 }
 
 // The oldest of those that wait; what water it was told to bring comes with the next.
@@ -325,7 +368,11 @@ void PaneSim::State::place(std::span<const PlacedDrop> list) {
 
 PaneSim::PaneSim(const PaneInfo& info, uint32_t id, uint64_t seed)
     : state_(std::make_unique<State>(info, id, seed)) {}
-PaneSim::~PaneSim() = default;
+// Its neighbours wait for it no longer.
+PaneSim::~PaneSim() {
+  state_->waiting.clear();
+  state_->tellOwed();
+}
 
 const PaneMap& PaneSim::map() const { return state_->map; }
 const UnevenGlass& PaneSim::unevenness() const { return state_->uneven; }
@@ -341,6 +388,13 @@ void PaneSim::setWiper(uint32_t id, const WiperInfo& info) {
 void PaneSim::setAirflow(Airflow airflow) {
   const std::lock_guard lock(state_->mutex);
   state_->forces.setAirflow(std::move(airflow));
+}
+
+void PaneSim::setPillars(std::vector<std::shared_ptr<Pillar>> off, std::vector<std::shared_ptr<Pillar>> on) {
+  const std::lock_guard lock(state_->mutex);
+  state_->pillars_off = std::move(off);
+  state_->pillars_on = std::move(on);
+  state_->tellOwed();
 }
 
 void PaneSim::removeWiper(uint32_t id) {
@@ -364,11 +418,14 @@ void PaneSim::submit(const PaneTick& tick) {
   state_->waiting.push_back({tick, {}});
   state_->runWaiting();
   while (state_->waiting.size() > kMostWaiting) state_->leaveOutATick();
+  state_->tellOwed();
 }
 
 void PaneSim::reset() {
   const std::lock_guard lock(state_->mutex);
   state_->waiting.clear();
+  for (const auto& pillar : state_->pillars_on) pillar->clear();
+  state_->tellOwed();
   state_->drops.clear();
   state_->craters.clear();
   state_->film.clear();
@@ -419,6 +476,7 @@ PaneStats PaneSim::stats() const {
   out.drops = state_->drops.count();
   out.area_m2 = state_->map.area_m2();
   out.caught_pl = ledger.caught_pl;
+  out.run_on_pl = ledger.run_on_pl;
   out.drained_pl = ledger.drained_pl;
   out.wiped_pl = ledger.wiped_pl;
   out.blown_pl = ledger.blown_pl;
@@ -468,6 +526,13 @@ void PaneSim::deliver(FilmReport&& report) {
   const std::lock_guard lock(state_->mutex);
   state_->film.deliver(std::move(report));
   state_->runWaiting();
+}
+
+bool PaneSim::resume() {
+  const std::lock_guard lock(state_->mutex);
+  const int64_t before = state_->ticks;
+  state_->runWaiting();
+  return state_->ticks != before;
 }
 
 bool PaneSim::waiting() const {

@@ -20,6 +20,7 @@ namespace rg::glass {
 
 class PaneMap;
 class UnevenGlass;
+class Pillar;
 struct PaneMesh;
 class Slide;
 class Drops;
@@ -97,7 +98,8 @@ inline constexpr int kMaxSizeClasses = 64;
 
 // All a pane knows of the world during a tick. Vectors in the vehicle's frame.
 struct PaneTick {
-  int64_t index = 0;  // rg::Tick's
+  int64_t index = 0;   // the pane's own count
+  int64_t moment = 0;  // the same for all panes that are ticked together; ascends
   glm::dvec3 acceleration_mps2{
       0.0, 0.0, -9.81};     // what water at rest on the glass feels: gravity minus the vehicle's acceleration
   glm::dvec3 air_mps{0.0};  // of the free air relative to the vehicle
@@ -113,6 +115,7 @@ struct PaneTick {
   uint32_t washing_count = 0;
   std::array<Washing, kMostWashings> washings{};
   double opening_m = 0.0;  // how far a window has slid; 0 while it has wipers
+  double run_off = 0.0;    // share of what runs off at a pillar that comes onto the pane behind it
 };
 
 struct PlacedDrop {
@@ -127,6 +130,7 @@ struct PaneStats {
   uint32_t drops = 0;
   double area_m2 = 0.0;
   int64_t caught_pl = 0;
+  int64_t run_on_pl = 0;    // of it
   int64_t on_glass_pl = 0;  // film + beads + drops + ridge + what travels between CPU and GPU, summed afresh
   int64_t drained_pl = 0, wiped_pl = 0, blown_pl = 0, evaporated_pl = 0;
   int64_t film_pl = 0, beads_pl = 0, drops_pl = 0, ridge_pl = 0, travelling_pl = 0;
@@ -176,12 +180,16 @@ class PaneSim {
   // How air runs over it, from the next tick on.
   void setAirflow(Airflow airflow);
 
+  // What runs off where it is near another pane goes on over that one, and the other way round. The other
+  // forgets it when this one is destroyed or forgets it.
+  void setPillars(std::vector<std::shared_ptr<Pillar>> off, std::vector<std::shared_ptr<Pillar>> on);
+
   // Adds drops beside those there, counted as caught. Throws std::invalid_argument, placing none, when one
   // lies off the pane or they are too many.
   void placeDrops(std::span<const PlacedDrop> drops);
 
-  // Runs a tick, or queues it where the film's answers that it needs are not there yet: then PaneGl::step
-  // runs it. Ticks ascend by one.
+  // Runs a tick, or queues it where the film's answers that it needs are not there yet, or a neighbour's
+  // ticks: then PaneGl::step runs it. Ticks ascend by one.
   void submit(const PaneTick& tick);
 
   // Back to a dry pane; the ledger starts anew. PaneGl clears its film when it is next called.
@@ -204,6 +212,7 @@ class PaneSim {
   // Answers, in order. Runs ticks that waited for them.
   void deliver(FilmReport&& report);
   bool waiting() const;  // a tick is queued that wants a report
+  bool resume();         // runs ticks that waited for neighbours; false: there was none
 
  private:
   struct State;

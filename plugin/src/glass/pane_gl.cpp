@@ -170,6 +170,7 @@ void PaneGl::run(std::span<PaneGl* const> panes, bool wait_for_all) {
         goes_on = true;
       }
     }
+    for (PaneGl* pane : panes) goes_on = pane->parts_->sim->resume() || goes_on;
   }
   for (PaneGl* pane : panes) pane->parts_->uploadDrops();
 }
@@ -181,9 +182,11 @@ void PaneGl::step() {
   run(std::span(&self, 1), false);
 }
 
+void PaneGl::finish(std::span<PaneGl* const> panes) { run(panes, true); }
+
 void PaneGl::finish() {
   PaneGl* self = this;
-  run(std::span(&self, 1), true);
+  finish(std::span(&self, 1));
 }
 
 PaneDrawn PaneGl::drawn() const {

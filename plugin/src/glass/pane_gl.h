@@ -69,6 +69,7 @@ class PaneGl {
   static void step(std::span<PaneGl* const> panes);
   void step();  // of this one
   // As that, and waits for all: afterwards PaneSim::stats is exact.
+  static void finish(std::span<PaneGl* const> panes);
   void finish();
 
   // Draws the glass slid so far, and no more of it than is before the sill.

@@ -105,6 +105,7 @@ class PaneMap {
   const std::vector<shared::vec4>& nodeMetric() const {
     return node_metric_;
   }  // metres for a texel along x, y; 1/area in 1/m^2; 0
+  size_t tileOf(int index) const;  // of a texel
   const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }  // of what is shown
   // A vector of the vehicle's frame as its components along the glass, grid axes, in its own unit.
   static glm::dvec2 alongGlass(const PaneNode& node, const glm::dvec3& v);
@@ -131,7 +132,6 @@ class PaneMap {
     return shown(index) ? index : -1;
   }
   size_t regionOf(int index) const;
-  size_t tileOf(int index) const;
 
   std::vector<glm::dvec2> chart_;
   PaneGrid grid_;
