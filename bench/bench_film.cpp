@@ -151,7 +151,7 @@ class Copy {
   Copy(const GladGLContext& gl, const glass::PaneMap& map, bool software)
       : gl_(gl),
         tiles_(map.tileCount()),
-        tiles_in_group_(software ? 8 : 4),  // as film_buffers.glsl has it
+        tiles_in_group_(software ? 8 : 1),  // as film_lists.glsl and film_tile.glsl have it
         program_(gl, {"copy.comp"},
                  software ? std::vector<std::string>{"RG_SOFTWARE_GL"} : std::vector<std::string>{}, source),
         from_(gl, bytes(map)),
@@ -168,6 +168,8 @@ class Copy {
   void run() {
     gl_.BindImageTexture(0, from_strips_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32I);
     gl_.BindImageTexture(1, from_beads_strips_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32I);
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, from_.name());
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, from_beads_.name());
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, to_.name());
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, to_beads_.name());
     program_.use();
@@ -183,7 +185,9 @@ class Copy {
   static std::string_view source(std::string_view path) {
     return path == "copy.comp" ? kText : gl::shaderSource(path);
   }
-  static constexpr std::string_view kText = R"(#include "glass/film_buffers.glsl"
+  static constexpr std::string_view kText = R"(
+#ifdef RG_SOFTWARE_GL
+#include "glass/film_lists.glsl"
 layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer from;
 layout(rgba32i, binding = 1) readonly uniform iimageBuffer from_beads;
@@ -203,7 +207,24 @@ void main() {
     }
     first += across;
   } while (++row < kWalkRows);
-})";
+}
+#else
+#include "shared/glass_types.glsl"
+layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
+layout(std430, binding = 0) readonly buffer From { int from[]; };
+layout(std430, binding = 1) readonly buffer FromBeads { int from_beads[]; };
+layout(std430, binding = 3) writeonly buffer To { int to[]; };
+layout(std430, binding = 6) writeonly buffer ToBeads { int to_beads[]; };
+layout(location = 4) uniform uvec2 tiles;
+void main() {
+  int t = int(gl_WorkGroupID.x), tiles_across = int(tiles.x);
+  ivec2 at = ivec2(t % tiles_across, t / tiles_across) * kTileSize + ivec2(gl_LocalInvocationID.xy);
+  int place = at.y * tiles_across * kTileSize + at.x;
+  to[place] = from[place];
+  to_beads[place] = from_beads[place];
+}
+#endif
+)";
   const GladGLContext& gl_;
   glm::uvec2 tiles_;
   GLuint tiles_in_group_;

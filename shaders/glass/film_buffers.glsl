@@ -13,7 +13,7 @@ const int kFields = 8, kFilmLow = 2, kFilmHigh = 3, kBeadsPl = 7; // of FilmTile
 // Water below the pin lies still. A tile is looked at when some on it or on a tile beside it may flow, when it was given or lost water, and
 // when it is its turn to dry; and once more, as the film is in one buffer and then in the other.
 struct TileState {
-  int stirs; // holds water that may flow, or was changed from outside
+  int stirs[2]; // holds water that may flow, or was changed from outside: as this turn's kernels ask, and as they tell the next
   int awake; // in the last step
   int dried_pl; // in its last turn to dry
   int last[kFields]; // its last report
@@ -23,30 +23,18 @@ layout(std430, binding = 5) buffer States { TileState states[]; };
 layout(location = 0) uniform int count;
 layout(location = 1) uniform int turn; // of two, one for every other step
 
-// How many tiles a step looks at, and the command for as many groups as they need: in rows, as GL promises no more than 65535 along an axis.
-struct AwakeTiles { uint groups_x, groups_y, groups_z, number; };
+// Groups in rows, as GL promises no more than 65535 along an axis.
 const uint kGroupsInRow = 32768u;
 uint groupInRows() { return gl_WorkGroupID.y * kGroupsInRow + gl_WorkGroupID.x; }
 
-// A group takes four tiles; its invocations walk over them, each over so many strips side by side and rows. A long way over wide rows shares most: that
-// suits software GL, which runs eight at once, and these are a group. A GPU wants many, with few registers each.
-#ifdef RG_SOFTWARE_GL
-const int kWalkStrips = 4, kWalkRows = 16, kTilesInGroup = 8;
-#else
-const int kWalkStrips = 1, kWalkRows = 4, kTilesInGroup = 4;
-#endif
 const int kStrips = kTileSize / kStripSize; // of a tile's row
-const int kWalksAcross = kStrips / kWalkStrips, kWalks = kWalksAcross * (kTileSize / kWalkRows);
-const int kGroup = kTilesInGroup * kWalks;
-// Tiles dry by single strips.
-const int kDryWalks = kStrips * (kTileSize / kWalkRows), kTilesInDryGroup = kGroup / kDryWalks;
 
 int tilesAcross() { return (info.columns + kTileSize - 1) / kTileSize; }
 
 // The film lies in rows of whole tiles.
 int placeOf(int texel) { return texel / info.columns * (tilesAcross() * kTileSize) + texel % info.columns; }
 
-void wake(int texel) { states[texel / info.columns / kTileSize * tilesAcross() + texel % info.columns / kTileSize].stirs = 1; }
+void wake(int texel) { states[texel / info.columns / kTileSize * tilesAcross() + texel % info.columns / kTileSize].stirs[turn] = 1; }
 
 // In a test build one of these loses 1 % of what passes through it: FilmKernel of pane_gl.h.
 const int kTake = 1, kAdd = 2, kRidge = 3, kSweep = 4, kLeave = 5, kFlow = 6, kBeadAdd = 7, kBead = 8;
@@ -58,4 +46,15 @@ int passed(int kernel, int volume_pl) {
   if (kernel == leaky_kernel) return volume_pl - volume_pl / 100;
 #endif
   return volume_pl;
+}
+
+// A texel's film and beads after a change, and what was taken of both.
+struct Changed { int film_pl; Beads beads; int taken_pl; };
+Changed changedBy(FilmChange change, int film_pl, Beads lying) {
+  int taken = shareOf(film_pl, change.share_65536), taken_beads = shareOf(lying.volume_pl, change.share_65536);
+  Changed now;
+  now.film_pl = film_pl + passed(kAdd, change.added_pl) - taken;
+  now.beads = joinedBy(withoutPart(lying, taken_beads), passed(kBeadAdd, change.beads_pl), change.beads, now.film_pl);
+  now.taken_pl = passed(kTake, taken + taken_beads);
+  return now;
 }

@@ -15,13 +15,10 @@ void main() {
     atomicAdd(ridge_pl[-1 - change.texel], passed(kRidge, change.added_pl));
     return;
   }
-  int place = placeOf(change.texel), volume = film[place];
-  Beads lying = beadsOf(beads[place]);
-  int taken = shareOf(volume, change.share_65536), taken_beads = shareOf(lying.volume_pl, change.share_65536);
-  volume += passed(kAdd, change.added_pl) - taken;
-  lying = joinedBy(withoutPart(lying, taken_beads), passed(kBeadAdd, change.beads_pl), change.beads, volume);
-  film[place] = volume;
-  beads[place] = packedBeads(lying);
-  if (change.take >= 0) taken_pl[change.take] = passed(kTake, taken + taken_beads);
+  int place = placeOf(change.texel);
+  Changed now = changedBy(change, film[place], beadsOf(beads[place]));
+  film[place] = now.film_pl;
+  beads[place] = packedBeads(now.beads);
+  if (change.take >= 0) taken_pl[change.take] = now.taken_pl;
   wake(change.texel);
 }

@@ -1,6 +1,6 @@
 // Tiles whose turn it is dry, and film on them breaks up: invocations walk over strips, kWalkRows rows each. Before the flow; those asleep stay so, which
 // is why the film's other copy is written too. Apart from the flow, as software GL runs through branches that nobody takes.
-#include "glass/film_buffers.glsl"
+#include "glass/film_lists.glsl"
 layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // the film's buffer below
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles

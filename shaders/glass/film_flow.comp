@@ -1,9 +1,9 @@
 // A film step: every texel gathers what its neighbours give and gives what they gather, takes in beads that it flows over, and may offer water to
 // the drops. It reads the film in one buffer and writes it to another, so that all see it as it was; beads it changes where they are. The
-// law is in shared/glass_film.glsl.
+// law is in shared/glass_film.glsl. This one is for software GL; glass/film_tile.comp is the same for GPUs.
 // Invocations walk up kColumns columns of a tile that is awake, kWalkRows rows, and keep what they know of a texel for the next. Software GL, too, reads
 // buffers as images fast, but as storage slowly; it runs through branches that nobody takes, and once more through a loop whose way out is at its head.
-#include "glass/film_buffers.glsl"
+#include "glass/film_lists.glsl"
 layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
@@ -282,7 +282,7 @@ void report(int t, ivec2 tile, int lane, Offering own) {
   if (lane == 0) {
     int stirs = 0;
     for (int k = first; k < first + kWalks; ++k) stirs |= toldBy(k, kStirs);
-    states[t].stirs = stirs;
+    states[t].stirs[1 - turn] = stirs;
   }
 }
 

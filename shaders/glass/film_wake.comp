@@ -1,5 +1,5 @@
 // Which tiles a step looks at, and which are to dry, as lists; the others report what they did. An invocation for each tile.
-#include "glass/film_buffers.glsl"
+#include "glass/film_lists.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) writeonly buffer Report { FilmTile tiles[]; };
 layout(std430, binding = 4) buffer Awake {
@@ -9,7 +9,7 @@ layout(std430, binding = 4) buffer Awake {
 
 AwakeTiles groupsUpTo(uint group) { return AwakeTiles(min(group + 1u, kGroupsInRow), group / kGroupsInRow + 1u, 1u, 0u); }
 
-bool stirs(ivec2 tile) { return states[tile.y * tilesAcross() + tile.x].stirs != 0; }
+bool stirs(ivec2 tile) { return states[tile.y * tilesAcross() + tile.x].stirs[turn] != 0; }
 
 bool wakes(int t) {
   ivec2 tile = ivec2(t % tilesAcross(), t / tilesAcross()), last = ivec2(tilesAcross(), count / tilesAcross()) - 1;
@@ -38,6 +38,7 @@ void main() {
     atomicMax(awake[turn].groups_x, groups.groups_x);
     atomicMax(awake[turn].groups_y, groups.groups_y);
   } else {
+    states[t].stirs[1 - turn] = 0;
     tiles[t] = FilmTile(-1, 0, uint(states[t].last[kFilmLow]), uint(states[t].last[kFilmHigh]), 0, 0, 0, uint(states[t].last[kBeadsPl]));
   }
 }

@@ -90,26 +90,76 @@ vec3 mirroredThrough(vec3 view, vec3 normal, vec3 surface, float spread_rad, vec
 }
 #endif
 
-#ifdef INSIDE
-// What the film shows of what lies behind the glass, bent at its surface; `blurred`: the same through droplets.
-vec3 throughFilm(vec2 at, vec3 view, float to_glass_m, float behind_m, vec3 within, vec3 normal, vec3 surface, out vec3 blurred) {
-  mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
-  vec3 transmitted = refract(within, -surface, kWaterIndex);
-  if (dot(transmitted, transmitted) < 0.5) transmitted = view;
-  float flat_reflectance = fresnel(max(dot(within, normal), 0.0), 1.0 / kWaterIndex);
-  float more = max(fresnel(max(dot(within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
-  // A view bent at the glass misses what stands close behind it by less than what is far.
-  float lever = behind_m / (behind_m + to_glass_m);
-  vec2 shift = lever * (inPicture(eye_from_vehicle * transmitted) - at);
-  vec3 normal_eye = eye_from_vehicle * normal;
-  float spanned = spanned_px(at + shift);
-  float share = shareToBehind(at, shift, spanned, behind_m, normal_eye, dot(normal_eye, eye_from_vehicle * i.from_eye));
-  shift *= share;
-  if (share < 1.0) spanned = 1.0;
-  blurred = throughDroplets(at + shift);
-  // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
-  return mix(behind(at + shift, spanned), frame.cabin_share * blurred, more / (1.0 - flat_reflectance));
+// The film's slope, as far as it is water that is seen and not a drop's.
+vec3 slopeOf(vec4 water) {
+  return water.xyz * (min(1.0, kSteepest / max(length(water.xyz), 1e-9)) * smoothstep(kDry_um, 4.0 * kDry_um, water.w));
 }
+
+#ifdef INSIDE
+// A view through the glass, as all of a pixel's parts have it.
+struct View {
+  vec2 at;  // in the picture
+  vec3 direction, within, normal;
+  float to_glass_m, behind_m;
+};
+
+// How the film's surface bends it: by how much of the picture, and what it reflects more than a flat one.
+struct Bent { vec2 shift; float more; };
+
+Bent bentBy(vec4 water, View view) {
+  vec3 surface = normalize(view.normal - slopeOf(water));
+  vec3 transmitted = refract(view.within, -surface, kWaterIndex);
+  if (dot(transmitted, transmitted) < 0.5) transmitted = view.direction;
+  float flat_reflectance = fresnel(max(dot(view.within, view.normal), 0.0), 1.0 / kWaterIndex);
+  float more = max(fresnel(max(dot(view.within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
+  // A view bent at the glass misses what stands close behind it by less than what is far.
+  float lever = view.behind_m / (view.behind_m + view.to_glass_m);
+  return Bent(lever * (inPicture(mat3(frame.eye_from_vehicle) * transmitted) - view.at), more / (1.0 - flat_reflectance));
+}
+
+// What is shown so; `blurred`: the same through droplets.
+vec3 shownBy(Bent bent, View view, float spanned, inout vec3 blurred) {
+  mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
+  vec3 normal_eye = eye_from_vehicle * view.normal;
+  float share = shareToBehind(view.at, bent.shift, spanned, view.behind_m, normal_eye, dot(normal_eye, eye_from_vehicle * i.from_eye));
+  vec2 shift = share * bent.shift;
+  if (share < 1.0) spanned = 1.0;
+  vec3 through_droplets = throughDroplets(view.at + shift);
+  blurred += through_droplets;
+  // What a steep surface reflects more than a flat one it takes from the view; it gives the cabin's light instead, here as dim as its share.
+  return mix(behind(view.at + shift, spanned), frame.cabin_share * through_droplets, bent.more);
+}
+
+#ifdef RIDGES
+// Small waves run along a roll that is pushed, faster than an eye follows: it sees the mean of what their slopes show, and so a lamp as a streak along
+// the blade. How far that reaches (by eye: slopes of some 0.1 either way).
+const float kWaves_rad = 0.06;
+
+// Part by part, each as wide in the picture as the way to it from the last.
+vec3 throughFilm(vec4 water, SeenRidge ridge, View view, out vec3 blurred) {
+  int parts = ridgeParts(ridge);
+  float part_px = parts > 1 ? 1.0 / float(parts) : 0.0;
+  Bent last = bentBy(withRidge(water, ridge, parts > 1 ? -0.5 - 0.5 * part_px : 0.0), view);
+  float spanned = spanned_px(view.at + last.shift);
+  vec3 light = vec3(0.0);
+  blurred = vec3(0.0);
+  int part = 0;
+  do {
+    Bent bent = bentBy(withRidge(water, ridge, (float(part) + 0.5) * part_px - (parts > 1 ? 0.5 : 0.0)), view);
+    if (parts > 1) spanned = max(length((bent.shift - last.shift) * frame.viewport.zw), kWaves_rad * frame.pixels_per_rad);
+    light += shownBy(bent, view, spanned, blurred);
+    last = bent;
+  } while (++part < parts);
+  blurred /= float(parts);
+  return light / float(parts);
+}
+#else
+vec3 throughFilm(vec4 water, View view, out vec3 blurred) {
+  Bent bent = bentBy(water, view);
+  blurred = vec3(0.0);
+  return shownBy(bent, view, spanned_px(view.at + bent.shift), blurred);
+}
+#endif
 #endif
 
 void main() {
@@ -121,7 +171,12 @@ void main() {
   vec4 water = textureLod(film, i.uv, 0.0);
 #endif
 #ifdef RIDGES
-  addRidges(i.from_eye + frame.eye_in_vehicle.xyz, water);
+  vec4 film_water = water;
+  SeenRidge ridge = seenRidge(i.from_eye + frame.eye_in_vehicle.xyz, dFdx(i.from_eye), dFdy(i.from_eye));
+  water = withRidge(film_water, ridge, 0.0);
+  bool ridged = ridgeParts(ridge) > 1;
+#else
+  const bool ridged = false;
 #endif
   vec3 normal = normalize(i.normal);
   float to_glass_m = length(i.from_eye);
@@ -132,10 +187,8 @@ void main() {
 #else
   SeenBead bead = SeenBead(0.0, 0.0, vec2(0.0), 1.0);
 #endif
-  bool wet = water.w > kDry_um || bead.cover + bead.hazy > 0.0;
-  float steep = length(water.xyz);
-  float sure = smoothstep(kDry_um, 4.0 * kDry_um, water.w);
-  vec3 slope = water.xyz * (min(1.0, kSteepest / max(steep, 1e-9)) * sure);
+  bool wet = water.w > kDry_um || ridged || bead.cover + bead.hazy > 0.0;
+  vec3 slope = slopeOf(water);
   vec3 cap = beadNormal(bead, normal, dx, dy);
   vec3 surface = normalize(normal - slope);
   mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
@@ -147,7 +200,12 @@ void main() {
   float behind_m = behindGlass_m(to_glass_m);
 #ifdef FILM
   vec3 blurred;
-  vec3 light = throughFilm(at, view, to_glass_m, behind_m, within, normal, surface, blurred);
+  View whole = View(at, view, within, normal, to_glass_m, behind_m);
+#ifdef RIDGES
+  vec3 light = throughFilm(film_water, ridge, whole, blurred);
+#else
+  vec3 light = throughFilm(water, whole, blurred);
+#endif
 #else  // as if there were no water
   vec3 light = decode(texelFetch(picture, ivec2(gl_FragCoord.xy - frame.viewport.xy), 0).rgb);
   vec3 blurred = throughDroplets(at);

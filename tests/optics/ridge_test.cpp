@@ -1,12 +1,14 @@
 // The water a blade pushes before it, as it stands and as it is seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 #include <random>
 
 #include "flat_pane.h"
 #include "gl_fixture.h"
 #include "shared/glass_wiper.glsl"
+#include "shared/hash.glsl"
 
 namespace rg::test {
 namespace {
@@ -92,6 +94,54 @@ class SeenRidge : public GlTest {
     return out;
   }
 };
+
+// A roll of less than two pixels, which pieces get their water for as unevenly as from a shower's drops,
+// shows a lamp aside as one streak along it: no row of pixels between its ends is dark, and none is twice as
+// bright as the next but at its ends.
+TEST_F(SeenRidge, showsALampAsAStreakWithoutGaps) {
+  FlatPane pane(gl, glm::radians(60.0), 0.8, 64);
+  pane.putFilm([](double, double) { return 1e-7; });
+  glass::LookBlade blade;
+  blade.along = glm::vec3(pane.up);
+  blade.ahead = glm::vec3(pane.right);
+  blade.blade_m = 0.3f;
+  const double piece_m = 0.3 / shared::kBladeSegments;
+  std::vector<int32_t> pieces;
+  for (uint32_t k = 0; k < shared::kBladeSegments * shared::kMaxGlassWipers; ++k)
+    pieces.push_back(static_cast<int32_t>(
+        1e9 * piece_m * (0.4 + 1.2 * static_cast<double>(shared::unitFloat(shared::pcg(k))))));
+  const gl::Buffer ridges(gl, std::span<const int32_t>(pieces));
+  pane.pane.blades = {blade};
+  pane.pane.ridge_buffer = ridges.name();
+  pane.pane.ridge_contact_rad = 0.7f;
+  Scene scene;
+  scene.size_px = {640, 320};
+  scene.view = forwardView(scene.size_px, glm::radians(60.0));
+  const glm::ivec2 lamp(260, 160), from(316, 80), to(328, 240);  // where the ridge is
+  for (int y = 0; y < 320; ++y) {
+    for (int x = 0; x < 640; ++x)
+      scene.picture.emplace_back(
+          glm::vec3(glm::distance(glm::vec2(x, y), glm::vec2(lamp)) < 4.0f ? 1000.0f : 0.0f), 1.0f);
+  }
+  glass::GlassLook look(gl);
+  const Picture shown = draw(gl, look, scene, {&pane.pane, 1});
+  std::vector<float> rows;
+  for (int y = from.y; y < to.y; ++y) {
+    float light = 0.0f;
+    for (int x = from.x; x < to.x; ++x) light += shown.at(x, y).x;
+    rows.push_back(light);
+  }
+  const float brightest = *std::max_element(rows.begin(), rows.end());
+  ASSERT_GT(brightest, 0.0f);
+  const auto lit = [&](float light) { return light > 0.1f * brightest; };
+  const auto first = std::find_if(rows.begin(), rows.end(), lit);
+  const auto last = std::find_if(rows.rbegin(), rows.rend(), lit).base() - 1;
+  EXPECT_GT(last - first, 20);
+  for (auto row = first; row < last; ++row) {
+    EXPECT_TRUE(lit(*row)) << "row " << row - rows.begin();
+    EXPECT_LT(std::max(row[0], row[1]), 2.0f * std::min(row[0], row[1])) << "row " << row - rows.begin();
+  }
+}
 
 TEST_F(SeenRidge, isSeenAheadOfTheBladeAndNowhereElse) {
   const Changed changed = seen(10'000'000'000);  // 10 mL a metre

@@ -6,14 +6,12 @@
 #include <utility>
 
 #include "gl/loader.h"
-#include "glass/film_layout.h"
 
 namespace rg::glass {
 namespace {
 
-std::vector<std::string> defines(FilmKernel leaky, bool software) {
+std::vector<std::string> defines(FilmKernel leaky) {
   std::vector<std::string> all;
-  if (software) all.emplace_back("RG_SOFTWARE_GL");
   if (leaky != FilmKernel::none) all.emplace_back("RG_LEAKS");
   return all;
 }
@@ -52,15 +50,27 @@ std::vector<uint32_t> stripCodes(const PaneMap& map, const UnevenGlass& glass) {
 
 }  // namespace
 
-FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software)
-    : change(gl, {"glass/film_change.comp"}, defines(leaky, software)),
-      sweep(gl, {"glass/film_sweep.comp"}, defines(leaky, software)),
-      leave(gl, {"glass/film_leave.comp"}, defines(leaky, software)),
-      wake(gl, {"glass/film_wake.comp"}, defines(leaky, software)),
-      dry(gl, {"glass/film_dry.comp"}, defines(leaky, software)),
-      flow(gl, {"glass/film_flow.comp"}, defines(leaky, software)) {
-  for (const gl::Program* program : {&change, &sweep, &leave, &wake, &dry, &flow})
-    tellLeak(gl, *program, leaky);
+FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software) : by_lists(software) {
+  const std::vector<std::string> told = defines(leaky);
+  const auto make = [&](std::string_view path) { return gl::Program(gl, {path}, told); };
+  sweep = make("glass/film_sweep.comp");
+  leave = make("glass/film_leave.comp");
+  if (by_lists) {
+    change = make("glass/film_change.comp");
+    wake = make("glass/film_wake.comp");
+    dry = make("glass/film_dry.comp");
+    flow = make("glass/film_flow.comp");
+  } else {
+    begin = make("glass/film_begin.comp");
+    tile = make("glass/film_tile.comp");
+  }
+  for (const gl::Program* program : all()) {
+    if (*program) tellLeak(gl, *program, leaky);
+  }
+}
+
+std::array<gl::Program*, 8> FilmPrograms::all() {
+  return {&sweep, &leave, &change, &wake, &dry, &flow, &begin, &tile};
 }
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
@@ -69,7 +79,7 @@ std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKern
 }
 
 void abandonFilmPrograms(FilmPrograms& p) {
-  for (gl::Program* program : {&p.change, &p.sweep, &p.leave, &p.wake, &p.dry, &p.flow}) program->forget();
+  for (gl::Program* program : p.all()) program->forget();
 }
 
 FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, const PaneMap& map,
@@ -129,7 +139,7 @@ std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
   std::vector<Step> steps;
   size_t bytes = 0, report_bytes = 0;
   for (const FilmOrder& order : orders) {
-    steps.push_back({this, &order, 0, bytes, report_bytes});
+    steps.push_back({this, &order, 0, 0, bytes, report_bytes});
     bytes += UploadLayout(order).bytes;
     report_bytes += ReportLayout(tiles_, order.takes.size()).bytes;
   }
@@ -137,12 +147,16 @@ std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
   for (Step& step : steps) {
     const FilmOrder& order = *step.order;
     const UploadLayout at(order);
-    const std::vector<shared::FilmChange> changes = changesOf(order);
+    std::vector<shared::FilmChange> changes = changesOf(order);
+    std::vector<int> firsts;
+    if (!programs_->by_lists) firsts = sortByDrying(changes, DryingTiles(order.info));
     step.changes = changes.size();
+    step.elsewhere = firsts.empty() ? changes.size() : static_cast<size_t>(firsts.front());
     const size_t start = step.upload_at;
     put(upload, start + at.info, &order.info, 1);
     put(upload, start + at.drive, order.drive.data(), order.drive.size());
     put(upload, start + at.changes, changes.data(), changes.size());
+    put(upload, start + at.firsts, firsts.data(), firsts.size());
     put(upload, start + at.ranges, order.sweep_ranges.data(), order.sweep_ranges.size());
     put(upload, start + at.leaves, order.leaves.data(), order.leaves.size());
     put(upload, start + at.texels, order.leave_texels.data(), order.leave_texels.size());
@@ -201,6 +215,32 @@ std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
   for (const shared::RidgeAdd& add : order.ridge_adds)
     changes.push_back({-1 - add.segment, add.volume_pl, 0, -1, 0, 0});
   return changes;
+}
+
+// Those to tiles that dry in the step come last, tile by tile: tells where each tile's begin, and where the
+// last one's end.
+std::vector<int> FilmGl::sortByDrying(std::vector<shared::FilmChange>& changes,
+                                      const DryingTiles& drying) const {
+  const auto columns = static_cast<size_t>(map_.grid().size.x),
+             across = static_cast<size_t>(map_.tileCount().x);
+  const auto place = [&](const shared::FilmChange& change) {
+    if (change.texel < 0) return drying.count;
+    const auto texel = static_cast<size_t>(change.texel);
+    return drying.placeOf(texel / columns / shared::kTileSize * across + texel % columns / shared::kTileSize);
+  };
+  std::vector<int> next(drying.count + 1, 0);
+  for (const shared::FilmChange& change : changes) ++next[place(change)];
+  int before = std::exchange(next[drying.count], 0);
+  const int elsewhere = before;
+  for (size_t k = 0; k < drying.count; ++k) before += std::exchange(next[k], before);
+  std::vector<int> firsts(next.begin(), next.begin() + static_cast<std::ptrdiff_t>(drying.count));
+  firsts.push_back(before);
+  if (elsewhere == before) return firsts;
+  std::vector<shared::FilmChange> sorted(changes.size());
+  for (const shared::FilmChange& change : changes)
+    sorted[static_cast<size_t>(next[place(change)]++)] = change;
+  changes = std::move(sorted);
+  return firsts;
 }
 
 std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes, size_t report_bytes) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gl/program.h"
+#include "glass/film_layout.h"
 #include "glass/film_order.h"
 #include "glass/pane_gl.h"
 #include "glass/pane_map.h"
@@ -19,9 +20,14 @@ namespace rg::glass {
 
 class FilmPrograms {
  public:
-  // `software`: shared out among invocations as suits a CPU; what they work out is the same.
+  // `software`: by lists of tiles, as suits a CPU. Else few kernels, and those wide. What they work out is
+  // the same.
   FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software);
-  gl::Program change, sweep, leave, wake, dry, flow;
+  std::array<gl::Program*, 8> all();
+  bool by_lists;
+  gl::Program sweep, leave;
+  gl::Program change, wake, dry, flow;  // by lists
+  gl::Program begin, tile;              // others
 };
 
 class FilmGl {
@@ -71,6 +77,7 @@ class FilmGl {
     FilmGl* film;
     const FilmOrder* order;
     size_t changes;
+    size_t elsewhere;             // of these, on tiles that do not dry: the first
     size_t upload_at, report_at;  // in the batch's buffers
   };
 
@@ -79,6 +86,11 @@ class FilmGl {
   void end();
   // Kernels: false when there is nothing for one to do. film_step_gl.cpp has them, and their order.
   static void step(std::span<const Step> steps);
+  static void stepByLists(std::span<const Step> steps);
+  static void sweepAndLeave(std::span<const Step> steps);
+  bool changeAndDry(const Step& step);
+  bool dryAfterBlades(const Step& step);
+  bool flowOverTiles(const Step& step);
   bool change(const Step& step);
   void sweep(const Step& step, const SweepOrder& sweep);
   bool leave(const Step& step);
@@ -86,14 +98,19 @@ class FilmGl {
   bool dry(const Step& step);
   bool flow(const Step& step);
   void tellRidges(const Step& step);
+  void turnOver();
   void bind(GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) const;
   void bindState(const Step& step) const;
+  void bindImages(const Step& step);
   void bindFlow(const Step& step);
+  void bindBegin(const Step& step);
   void dispatch(const gl::Program& program, size_t count) const;
+  void dispatchGroups(const gl::Program& program, size_t count, size_t groups) const;
   void dispatchListed(const gl::Program& program, size_t command_at) const;
 
   void clear();
   std::vector<shared::FilmChange> changesOf(const FilmOrder& order);
+  std::vector<int> sortByDrying(std::vector<shared::FilmChange>& changes, const DryingTiles& drying) const;
   size_t place(int texel) const;
   void show(const gl::Buffer& texels, GLenum type, gl::Texture2D& picture);
   template <typename T>

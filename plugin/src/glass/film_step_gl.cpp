@@ -1,7 +1,6 @@
 // The kernels of a film's step, one after another: of all panes at once, so that a GPU works on them side by
 // side and waits once for each kernel, not once for each pane and kernel.
 #include "glass/film_gl.h"
-#include "glass/film_layout.h"
 
 namespace rg::glass {
 namespace {
@@ -41,15 +40,45 @@ void FilmGl::runTogether(std::span<FilmGl* const> films, std::span<const std::ve
   }
 }
 
-// Each film's step; of none there are two.
+namespace {
+
+// Each film's kernel; whoever needs what it did waits for them all.
+template <typename Steps, typename Kernel>
+void each(const GladGLContext& gl, const Steps& steps, GLbitfield barrier, const Kernel& kernel) {
+  bool ran = false;
+  for (const auto& s : steps) ran = (s.film->*kernel)(s) || ran;
+  if (ran) gl.MemoryBarrier(barrier);
+}
+
+}  // namespace
+
+// Each film's step; of none there are two. What a GPU pays for a kernel that waits for another is much more
+// than for groups that find nothing to do: changes and drying are one kernel where no blade is between.
 void FilmGl::step(std::span<const Step> steps) {
   const GladGLContext& gl = steps.front().film->gl_;
-  const auto each = [&](GLbitfield barrier, const auto& kernel) {
-    bool ran = false;
-    for (const Step& s : steps) ran = (s.film->*kernel)(s) || ran;
-    if (ran) gl.MemoryBarrier(barrier);
-  };
-  each(kFilmBarrier, &FilmGl::change);
+  if (steps.front().film->programs_->by_lists) return stepByLists(steps);
+  each(gl, steps, kFilmBarrier, &FilmGl::changeAndDry);
+  sweepAndLeave(steps);
+  each(gl, steps, kFilmBarrier, &FilmGl::dryAfterBlades);
+  each(gl, steps, kFilmBarrier, &FilmGl::flowOverTiles);
+  for (const Step& s : steps) s.film->turnOver();
+}
+
+void FilmGl::stepByLists(std::span<const Step> steps) {
+  const GladGLContext& gl = steps.front().film->gl_;
+  each(gl, steps, kFilmBarrier, &FilmGl::change);
+  sweepAndLeave(steps);
+  each(gl, steps, kFilmBarrier | GL_COMMAND_BARRIER_BIT, &FilmGl::wake);
+  each(gl, steps, kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::dry);
+  each(gl, steps, kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::flow);
+  for (const Step& s : steps) {
+    s.film->tellRidges(s);
+    s.film->turnOver();
+  }
+}
+
+void FilmGl::sweepAndLeave(std::span<const Step> steps) {
+  const GladGLContext& gl = steps.front().film->gl_;
   size_t most_sweeps = 0;
   for (const Step& s : steps) most_sweeps = std::max(most_sweeps, s.order->sweeps.size());
   for (size_t k = 0; k < most_sweeps; ++k) {  // blades may meet on a texel: one after the other
@@ -58,11 +87,7 @@ void FilmGl::step(std::span<const Step> steps) {
     }
     gl.MemoryBarrier(kFilmBarrier);
   }
-  each(kFilmBarrier, &FilmGl::leave);
-  each(kFilmBarrier | GL_COMMAND_BARRIER_BIT, &FilmGl::wake);
-  each(kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::dry);
-  each(kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::flow);
-  for (const Step& s : steps) s.film->tellRidges(s);
+  each(gl, steps, kFilmBarrier, &FilmGl::leave);
 }
 
 void FilmGl::bind(GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) const {
@@ -85,6 +110,72 @@ void FilmGl::dispatch(const gl::Program& program, size_t count) const {
   program.set(1, static_cast<int32_t>(turn_));
   program.use();
   gl_.DispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
+}
+
+// In rows, as in film_buffers.glsl.
+void FilmGl::dispatchGroups(const gl::Program& program, size_t count, size_t groups) const {
+  constexpr size_t kGroupsInRow = 32768;
+  program.set(0, static_cast<int32_t>(count));
+  program.set(1, static_cast<int32_t>(turn_));
+  program.use();
+  gl_.DispatchCompute(static_cast<GLuint>(std::min(groups, kGroupsInRow)),
+                      static_cast<GLuint>((groups + kGroupsInRow - 1) / kGroupsInRow), 1);
+}
+
+namespace {
+
+bool hasBlades(const FilmOrder& order) { return !order.sweeps.empty() || !order.leaves.empty(); }
+
+size_t groupsFor(size_t changes) { return (changes + kTileTexels - 1) / kTileTexels; }
+
+}  // namespace
+
+// Changes; and tiles dry, unless a blade has to pass before.
+bool FilmGl::changeAndDry(const Step& step) {
+  const bool dries = !hasBlades(*step.order);
+  const size_t drying = dries ? DryingTiles(step.order->info).count : 0,
+               elsewhere = dries ? step.elsewhere : step.changes;
+  if (drying + elsewhere == 0) return false;
+  bindBegin(step);
+  programs_->begin.set(2, static_cast<int32_t>(drying));
+  programs_->begin.set(3, 1);
+  dispatchGroups(programs_->begin, elsewhere, drying + groupsFor(elsewhere));
+  return true;
+}
+
+bool FilmGl::dryAfterBlades(const Step& step) {
+  const size_t drying = DryingTiles(step.order->info).count;
+  if (!hasBlades(*step.order) || drying == 0) return false;
+  bindBegin(step);
+  programs_->begin.set(2, static_cast<int32_t>(drying));
+  programs_->begin.set(3, 0);
+  dispatchGroups(programs_->begin, 0, drying);
+  return true;
+}
+
+// A group for each tile, and one that tells of the ridges.
+bool FilmGl::flowOverTiles(const Step& step) {
+  const ReportLayout report(tiles_, step.order->takes.size());
+  bindState(step);
+  bindImages(step);
+  bind(2, begun_->report, step.report_at, report.taken);
+  bind(3, film_[1 - turn_], 0, film_[1 - turn_].bytes());
+  programs_->tile.set(2, static_cast<int32_t>(report.ridges / sizeof(int)));
+  dispatchGroups(programs_->tile, tiles_, tiles_ + (ridged_ ? 1 : 0));
+  return true;
+}
+
+void FilmGl::bindBegin(const Step& step) {
+  const UploadLayout upload(*step.order);
+  const ReportLayout report(tiles_, step.order->takes.size());
+  bindState(step);
+  bind(0, begun_->upload, step.upload_at + upload.changes,
+       std::max<size_t>(step.changes, 1) * sizeof(shared::FilmChange));
+  bind(2, begun_->report, step.report_at + report.taken, report.taken_bytes);
+  bind(4, begun_->upload, step.upload_at + upload.firsts,
+       (DryingTiles(step.order->info).count + 1) * sizeof(int));
+  bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
+  gl_.BindImageTexture(1, metric_nodes_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
 }
 
 bool FilmGl::change(const Step& step) {
@@ -146,21 +237,22 @@ bool FilmGl::flow(const Step& step) {
   return true;
 }
 
-// The step's end.
 void FilmGl::tellRidges(const Step& step) {
   const ReportLayout report(tiles_, step.order->takes.size());
   if (ridged_)
     gl_.CopyNamedBufferSubData(ridges_.name(), begun_->report.name(), 0,
                                static_cast<GLintptr>(step.report_at + report.ridges), kRidgeBytes);
+}
+
+void FilmGl::turnOver() {
   turn_ = 1 - turn_;
   picture_is_old_ = beads_picture_is_old_ = true;
 }
 
-void FilmGl::bindFlow(const Step& step) {
+void FilmGl::bindImages(const Step& step) {
   const auto image = [&](GLuint unit, const gl::BufferTexture& texture, GLenum format) {
     gl_.BindImageTexture(unit, texture.name(), 0, GL_FALSE, 0, GL_READ_ONLY, format);
   };
-  bindState(step);
   drive_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), begun_->upload,
                     step.upload_at + UploadLayout(*step.order).drive,
                     step.order->drive.size() * sizeof(shared::vec4));
@@ -169,6 +261,11 @@ void FilmGl::bindFlow(const Step& step) {
   image(2, drive_nodes_, GL_RGBA32F);
   image(3, beads_strips_, GL_RGBA32UI);
   image(4, glass_strips_, GL_RGBA32UI);
+}
+
+void FilmGl::bindFlow(const Step& step) {
+  bindState(step);
+  bindImages(step);
   bind(2, begun_->report, step.report_at, tiles_ * sizeof(shared::FilmTile));
   bind(4, awake_, 0, awake_.bytes());
   bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
