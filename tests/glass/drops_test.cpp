@@ -295,6 +295,32 @@ TEST(DropShape, restingDropsFollowTheWind) {
   EXPECT_NEAR(longAfter(0.5), at_once, 0.02);  // within 0.01 each is at rest
 }
 
+// A wind as strong as before from elsewhere turns what rests: it lies along the new one, as long as if there
+// had been no other.
+TEST(DropShape, restingDropsTurnWithTheWind) {
+  const auto lies = [](std::initializer_list<glm::dvec3> winds_mps) {
+    DropScene scene(1e-6, glass::Glass::dirty);
+    scene.place(0.0, 0.0, 2.5e-3, rad(40));
+    const glm::vec2 start = scene.sim->snapshot()->drops.at(0).position_m;
+    glass::PaneTick tick = weather(0.0);
+    for (const glm::dvec3& wind_mps : winds_mps) {
+      tick.air_mps = wind_mps;
+      scene.run(tick, 0.5);
+    }
+    const shared::GlassDropRecord drop = scene.sim->snapshot()->drops.at(0);
+    EXPECT_EQ(drop.position_m, start);
+    return drop;
+  };
+  constexpr glm::dvec3 kAhead_mps{-7.0, 0.0, 0.0}, kAside_mps{0.0, 7.0, 0.0};
+  const shared::GlassDropRecord ahead = lies({kAhead_mps}), aside = lies({kAside_mps}),
+                                turned = lies({kAhead_mps, kAside_mps});
+  EXPECT_GT(aside.elongation, 1.15f);
+  EXPECT_LT(std::abs(glm::dot(ahead.heading, aside.heading)), 0.1f);
+  EXPECT_GT(std::abs(glm::dot(turned.heading, aside.heading)), 0.99f);
+  // Within 0.01 each is at rest; as it turned it stood more broadly in the wind, and it is pinned.
+  EXPECT_NEAR(turned.elongation, aside.elongation, 0.04);
+}
+
 struct Shape {
   double elongation, corner, way_m;
   glm::dvec2 heading;  // of its head

@@ -41,13 +41,23 @@ inline double capShape(double theta_rad) {
   return std::numbers::pi * (1.0 - c) * (1.0 - c) * (2.0 + c) / (3.0 * s * s * s);
 }
 
-// Height of the cap of volume V over a base of radius R: the real root of h^3 + 3 R^2 h - 6 V / pi = 0
-// (Cardano).
+// Height of the cap of volume V over a base of radius R: the real root of h^3 + 3 R^2 h - 6 V / pi = 0, by
+// Newton's steps. From wherever they start the first goes beyond the root and the others come down to it;
+// near it, as of a drop that has hardly changed since, there are one or two: what a step leaves is its
+// square.
+inline double capHeightFrom(double start_m, double volume_m3, double base_radius_m) {
+  constexpr double kClose = 1e-5;
+  const double r2 = base_radius_m * base_radius_m, sixth = 6.0 / std::numbers::pi * volume_m3;
+  double h = start_m;
+  for (int steps = 0; steps < 60; ++steps) {
+    const double next = (2.0 * h * h * h + sixth) / (3.0 * (h * h + r2)), step = next - h;
+    h = next;
+    if (std::abs(step) <= kClose * h) break;
+  }
+  return h;
+}
 inline double capHeight(double volume_m3, double base_radius_m) {
-  const double q = 3.0 * volume_m3 / std::numbers::pi;
-  const double r3 = base_radius_m * base_radius_m * base_radius_m;
-  const double root = std::sqrt(q * q + r3 * r3);
-  return std::cbrt(q + root) - std::cbrt(root - q);
+  return capHeightFrom(0.0, volume_m3, base_radius_m);
 }
 
 // Beads, and drops of no known history, are caps of the mean of both angles (physics.md 3).
