@@ -25,16 +25,16 @@ constexpr float kSmallestPearl = 0.08f;  // of the radius
 float power(float base, float exponent) { return std::pow(base, exponent); }
 float exponential(double x) { return std::exp(static_cast<float>(x)); }
 
-// Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
+// Drag of the wind on a cap: C_D 1 on its outline seen along the wind, wind at its height. physics.md 3,
 // "depinning by wind".
 struct Drag {
-  double height_m, profile;  // of the free air's speed at the cap's height
+  double height_m, share2;  // of the free air's speed at the cap's height, its square
   explicit Drag(const Drop& drop) : height_m(static_cast<double>(drop.height_m)) {
-    profile = static_cast<double>(
-        power(static_cast<float>(std::min(1.0, height_m / kBoundaryLayer_m)), 1.0f / 7.0f));
+    share2 = static_cast<double>(
+        power(static_cast<float>(std::min(1.0, height_m / kBoundaryLayer_m)), 2.0f / 7.0f));
   }
   double perSquare_n(double width_m) const {  // of air of 1 m/s
-    return 0.5 * kRhoAir_kg_m3 * (2.0 / 3.0 * height_m * width_m) * profile;
+    return 0.5 * kRhoAir_kg_m3 * capOutline_m2(height_m, 0.5 * width_m) * share2;
   }
 };
 
@@ -104,9 +104,8 @@ void Drops::slide(const DropWorld& world, int slot) {
   const double mass_kg = kRho_kg_m3 * cubicMetres(drop.volume_pl);
   const Drag drag(drop);
   const double air = glm::length(push.air_mps);
-  const double facing_m = air > 0.0 ? widthAcross_m(drop, push.air_mps / air) : 0.0;
-  const glm::dvec2 force_n =
-      mass_kg * push.acceleration_mps2 + drag.perSquare_n(facing_m) * air * push.air_mps;
+  glm::dvec2 force_n = mass_kg * push.acceleration_mps2;
+  if (air > 0.0) force_n += drag.perSquare_n(widthAcross_m(drop, push.air_mps / air)) * air * push.air_mps;
   const double force = glm::length(force_n);
   const double hold_n = hold_per_m_ * width_m;
   const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);

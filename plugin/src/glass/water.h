@@ -78,6 +78,15 @@ inline double capAngle(double height_m, double base_radius_m) {
   return 2.0 * std::atan2(height_m, base_radius_m);
 }
 
+// A cap's outline seen from the side: the segment of a circle. Of flat ones, where its formula loses digits,
+// by the first two terms of its series in h / R, right to 2e-4.
+inline double capOutline_m2(double height_m, double base_radius_m) {
+  const double t = height_m / base_radius_m, r2 = base_radius_m * base_radius_m;
+  if (t < 0.3) return r2 * t * (4.0 / 3.0 + 4.0 / 15.0 * t * t);
+  const double sphere = (1.0 + t * t) / (2.0 * t);  // over R
+  return r2 * (2.0 * sphere * sphere * std::atan(t) - (1.0 - t * t) / (2.0 * t));
+}
+
 // The force that holds a drop of base width w (Furmidge; k = 24 / pi^3, ElSherbini & Jacobi 2006).
 inline double retention_n(double width_m, double cos_receding, double cos_advancing) {
   constexpr double kShape = 24.0 / (std::numbers::pi * std::numbers::pi * std::numbers::pi);
