@@ -93,30 +93,36 @@ void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, c
     nodes_[i].acceleration = glm::vec2(PaneMap::alongGlass(node, acceleration_mps2));
     nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps, airflow_)));
   }
-  findMost(map);
+  findAbout(map);
 }
 
-void ForceField::findMost(const PaneMap& map) {
-  std::vector<Most> corners;
-  corners.reserve(nodes_.size());
-  for (const NodePush& node : nodes_)
-    corners.push_back({glm::length(node.acceleration), glm::length(node.air)});
-  const auto either = [](const Most& a, const Most& b) {
-    return Most{std::max(a.acceleration_mps2, b.acceleration_mps2), std::max(a.air_mps, b.air_mps)};
-  };
+void ForceField::findAbout(const PaneMap& map) {
   const glm::ivec2 count = map.nodeCount();
-  tiles_.resize(nodes_.size());  // a tile has its first corner's number
+  tiles_.assign(nodes_.size(), {});  // a tile has its first corner's number
   for (int y = 0; y + 1 < count.y; ++y) {
     for (int x = 0; x + 1 < count.x; ++x) {
-      const Most* corner = &corners[static_cast<size_t>(y * count.x + x)];
-      tiles_[static_cast<size_t>(y * count.x + x)] =
-          either(either(corner[0], corner[1]), either(corner[count.x], corner[count.x + 1]));
+      About& tile = tiles_[static_cast<size_t>(y * count.x + x)];
+      for (const int corner : {0, 1, count.x, count.x + 1}) {
+        const NodePush& node = nodes_[static_cast<size_t>(y * count.x + x + corner)];
+        const float air_mps = glm::length(node.air);
+        tile.acceleration_mps2 += 0.25f * node.acceleration;
+        tile.air2_m2_s2 += 0.25f * air_mps * node.air;
+        tile.most_acceleration_mps2 = std::max(tile.most_acceleration_mps2, glm::length(node.acceleration));
+        tile.most_air2_m2_s2 = std::max(tile.most_air2_m2_s2, air_mps * air_mps);
+      }
     }
   }
 }
 
-const ForceField::Most& ForceField::mostAbout(const PaneMap& map, glm::dvec2 grid_m) const {
-  return tiles_[InTile(map, grid_m).node];
+int ForceField::tileAt(const PaneMap& map, glm::dvec2 grid_m) {
+  return static_cast<int>(InTile(map, grid_m).node);
+}
+
+double ForceField::airSpeed_mps(const PaneMap& map, glm::dvec2 grid_m) const {
+  const InTile in(map, grid_m);
+  const NodePush* row = &nodes_[in.node];
+  const NodePush* next = row + in.row;
+  return static_cast<double>(glm::length(in.mix(row[0].air, row[1].air, next[0].air, next[1].air)));
 }
 
 Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {

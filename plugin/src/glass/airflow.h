@@ -56,21 +56,24 @@ class ForceField {
   // Per node, for the film: xy acceleration, zw shear stress.
   std::vector<shared::vec4> filmDrive() const;
   bool empty() const { return nodes_.empty(); }
-  // Nowhere in the place's tile is either greater: what lies between nodes is a mean of theirs.
-  struct Most {
-    float acceleration_mps2 = 0.0f, air_mps = 0.0f;
+  // Of all places of a tile: what lies between nodes is a mean of theirs.
+  struct About {
+    glm::vec2 acceleration_mps2{0.0f}, air2_m2_s2{0.0f};          // the mean; air times its speed
+    float most_acceleration_mps2 = 0.0f, most_air2_m2_s2 = 0.0f;  // nowhere is either greater
   };
-  const Most& mostAbout(const PaneMap& map, glm::dvec2 grid_m) const;
+  const About& about(int tile) const { return tiles_[static_cast<size_t>(tile)]; }
+  static int tileAt(const PaneMap& map, glm::dvec2 grid_m);
+  double airSpeed_mps(const PaneMap& map, glm::dvec2 grid_m) const;  // length of Push's
 
  private:
-  void findMost(const PaneMap& map);
+  void findAbout(const PaneMap& map);
   struct NodePush {
     glm::vec2 acceleration, air;
   };
   Airflow airflow_;
   std::vector<NodePush> nodes_;
   glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0}, slid_m_{0.0};
-  std::vector<Most> tiles_;
+  std::vector<About> tiles_;
 };
 
 }  // namespace rg::glass

@@ -28,66 +28,70 @@ void Drops::merge(const DropWorld& world) {
 
 // Cells lie anywhere in memory: they are asked for before they are waited for.
 void Drops::fetchAbout(int slot) const {
-  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const glm::ivec2 cell = cellAt(drop.place_m);
-  for (int y = std::max(0, cell.y - 1); y <= std::min(cell.y + 1, cell_count_.y - 1); ++y)
-    __builtin_prefetch(&cells_[static_cast<size_t>(y * cell_count_.x + cell.x)]);
+  const int cell = slots_.items[static_cast<size_t>(slot)].cell, last = static_cast<int>(cells_.size()) - 1;
+  for (const int row : {-cell_count_.x, 0, cell_count_.x})
+    __builtin_prefetch(&cells_[static_cast<size_t>(std::clamp(cell + row, 0, last))]);
 }
 
 // Some drops are far wider than most: a look for neighbours goes as far as the widest of the blocks about
-// reaches, and leaves out the cells whose own widest does not reach back.
+// reaches.
 void Drops::findWidest() {
-  largest_radius_m_ = 0.0;
-  for (Cell& cell : cells_) cell.widest_m = 0.0f;
+  largest_radius_m_ = 0.0f;
   std::fill(widest_m_.begin(), widest_m_.end(), 0.0f);
-  for (const Drop& drop : slots_.items) {
-    if (drop.volume_pl != 0) noteWidth(drop);
+  for (size_t slot = 0; slot < slots_.items.size(); ++slot) {
+    if (slots_.items[slot].volume_pl != 0) noteWidth(static_cast<int>(slot));
   }
 }
 
-void Drops::noteWidth(const Drop& drop) {
-  const float reach_m = halfLength_m(drop);
-  const glm::ivec2 at = cellAt(drop.place_m), block = at / kBlock;
-  for (float* widest_m : {&cells_[static_cast<size_t>(at.y * cell_count_.x + at.x)].widest_m,
-                          &widest_m_[static_cast<size_t>(block.y * block_count_.x + block.x)]})
-    *widest_m = std::max(*widest_m, reach_m);
-  largest_radius_m_ = std::max(largest_radius_m_, static_cast<double>(reach_m));
+void Drops::noteWidth(int slot) {
+  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const float half_m = nears_[static_cast<size_t>(slot)].half_m = halfLength_m(drop);
+  float& block_m = widest_m_[static_cast<size_t>(cells_[static_cast<size_t>(drop.cell)].block)];
+  block_m = std::max(block_m, half_m);
+  largest_radius_m_ = std::max(largest_radius_m_, half_m);
 }
 
-double Drops::widestAbout_m(glm::dvec2 place_m, glm::dvec2 reach_m) const {
-  const glm::ivec2 low = cellAt(place_m - reach_m) / kBlock, high = cellAt(place_m + reach_m) / kBlock;
+float Drops::widestAbout_m(glm::vec2 place_m, glm::vec2 reach_m) const {
+  const glm::vec2 least_m = place_m - reach_m, most_m = place_m + reach_m;
+  const int left = columnAt(least_m.x) / kBlock, right = columnAt(most_m.x) / kBlock;
+  const int low = rowAt(least_m.y) / kBlock, high = rowAt(most_m.y) / kBlock;
   float widest_m = 0.0f;
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x)
+  for (int y = low; y <= high; ++y) {
+    for (int x = left; x <= right; ++x)
       widest_m = std::max(widest_m, widest_m_[static_cast<size_t>(y * block_count_.x + x)]);
   }
-  return static_cast<double>(widest_m);
+  return widest_m;
 }
 
 // The first drop about a place, in the order of cells, that `met` is true of; -1: none. None is left out that
-// reaches nearer than `beyond_m` to the place.
+// is nearer than `overlap` of both reaches, `own_m` its own.
 template <class Met>
-int Drops::firstAbout(const DropWorld& world, glm::dvec2 place_m, double beyond_m, const Met& met) const {
+int Drops::firstAbout(const DropWorld& world, glm::dvec2 place_m, float own_m, float overlap,
+                      const Met& met) const {
+  constexpr float kRounding_m = 2e-5f;  // of what floats round of places and reaches
   const glm::dvec2 metres = ForceField::metresAt(world.map, place_m);
-  const double widest_m = widestAbout_m(place_m, (beyond_m + largest_radius_m_) / metres);
-  const glm::dvec2 reach_m = (beyond_m + widest_m) / metres;
-  const glm::ivec2 low = cellAt(place_m - reach_m), high = cellAt(place_m + reach_m);
-  const glm::vec2 at_m(place_m * metres), cell_m(kCell_m * metres);
-  const float own_m = static_cast<float>(beyond_m) + 1e-6f;  // and what floats round
-  for (int y = low.y; y <= high.y; ++y) {
-    const float below_m = static_cast<float>(y) * cell_m.y - at_m.y;
-    const float dy_m = std::max(0.0f, std::max(below_m, -below_m - cell_m.y));
+  const glm::vec2 scale(metres), per_metre = 1.0f / scale, at_m(place_m);
+  const float farthest_m = own_m + widestAbout_m(at_m, (own_m + largest_radius_m_) * per_metre);
+  const float far_m = overlap * farthest_m + kRounding_m, far2_m2 = far_m * far_m;
+  const float bottom_m = at_m.y - far_m * per_metre.y, top_m = at_m.y + far_m * per_metre.y;
+  const float row_m = static_cast<float>(kCell_m);
+  const int low = rowAt(bottom_m), high = rowAt(top_m);
+  for (int y = low; y <= high; ++y) {
+    const float below_m = static_cast<float>(y) * row_m - at_m.y;
+    const float dy_m = scale.y * std::max(0.0f, std::max(below_m, -below_m - row_m));
+    const float aside_m = std::sqrt(std::max(0.0f, far2_m2 - dy_m * dy_m)) * per_metre.x;
     const Cell* row = &cells_[static_cast<size_t>(y * cell_count_.x)];
-    for (int x = low.x; x <= high.x; ++x) {
-      const Cell& cell = row[x];
-      if (cell.first < 0) continue;
-      const float left_m = static_cast<float>(x) * cell_m.x - at_m.x;
-      const float dx_m = std::max(0.0f, std::max(left_m, -left_m - cell_m.x));
-      const float reaches_m = own_m + cell.widest_m;
-      if (dx_m * dx_m + dy_m * dy_m > reaches_m * reaches_m) continue;
-      for (int slot = cell.first; slot >= 0; slot = slots_.items[static_cast<size_t>(slot)].next) {
-        const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-        if (met(slot, drop, (drop.place_m - place_m) * metres)) return slot;
+    const Cell* last = row + columnAt(at_m.x + aside_m);
+    for (const Cell* cell = row + columnAt(at_m.x - aside_m); cell <= last; ++cell) {
+      for (int slot = cell->first; slot >= 0;) {
+        const Near& near = nears_[static_cast<size_t>(slot)];
+        const glm::vec2 away_m = (near.place_m - at_m) * scale;
+        const float near_m = overlap * (own_m + near.half_m) + kRounding_m;
+        if (glm::dot(away_m, away_m) < near_m * near_m) {
+          const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+          if (met(slot, drop, (drop.place_m - place_m) * metres)) return slot;
+        }
+        slot = near.next;
       }
     }
   }
@@ -97,20 +101,17 @@ int Drops::firstAbout(const DropWorld& world, glm::dvec2 place_m, double beyond_
 // The first of those a drop touches; -1: none.
 int Drops::touching(const DropWorld& world, int slot) const {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const float half_m = halfLength_m(drop);
-  return firstAbout(world, drop.place_m, static_cast<double>(half_m),
+  return firstAbout(world, drop.place_m, nears_[static_cast<size_t>(slot)].half_m, static_cast<float>(kTouch),
                     [&](int other, const Drop& that, glm::dvec2 d) {
-                      const double apart2_m2 = glm::dot(d, d);
-                      double near_m = kTouch * static_cast<double>(half_m + halfLength_m(that));
-                      if (other == slot || apart2_m2 >= near_m * near_m) return false;
-                      near_m = kTouch * (reachTowards_m(drop, d) + reachTowards_m(that, d));
-                      return apart2_m2 < near_m * near_m;
+                      if (other == slot) return false;
+                      const double near_m = kTouch * (reachTowards_m(drop, d) + reachTowards_m(that, d));
+                      return glm::dot(d, d) < near_m * near_m;
                     });
 }
 
 // The first drop that a place lies in; -1: none.
 int Drops::covering(const DropWorld& world, glm::dvec2 place_m) const {
-  return firstAbout(world, place_m, 0.0, [](int, const Drop& drop, glm::dvec2 d) {
+  return firstAbout(world, place_m, 0.0f, 1.0f, [](int, const Drop& drop, glm::dvec2 d) {
     const double reach_m = reachTowards_m(drop, d);
     return glm::dot(d, d) < reach_m * reach_m;
   });
@@ -131,7 +132,7 @@ int Drops::unite(const DropWorld& world, int a, int b) {
   const double r = static_cast<double>(large.base_radius_m), q = static_cast<double>(small.base_radius_m);
   const double longer = std::max(2.0 * r, r + q + distance_m) / (2.0 * r);
   const double apart = std::clamp((distance_m + q - r) / (2.0 * q), 0.0, 1.0);
-  if (longer > 1.05 && !large.moving) {
+  if (longer > 1.05 && large.pose != Pose::moving) {
     const glm::dvec2 axis = distance_m > 0.0 ? between * metres / distance_m : glm::dvec2(large.heading);
     if (static_cast<double>(large.elongation) < longer) {
       large.heading = glm::vec2(axis);
@@ -141,7 +142,7 @@ int Drops::unite(const DropWorld& world, int a, int b) {
         static_cast<float>(std::min(1.8, std::max(longer, 0.8 * static_cast<double>(large.elongation))));
   }
   large.velocity_mps += (small.velocity_mps - large.velocity_mps) * static_cast<float>(share);
-  large.moving = large.moving || small.moving;
+  if (small.pose == Pose::moving) become(a, Pose::moving);
   const int64_t gained_pl = passed(LeakyKernel::merge, small.volume_pl);
   const glm::dvec2 place = large.place_m + share * between;
   remove(b);
@@ -151,8 +152,8 @@ int Drops::unite(const DropWorld& world, int a, int b) {
   }
   large.volume_pl += gained_pl;
   large.base_radius_m = static_cast<float>(std::sqrt(r * r + q * q * apart));
-  noteWidth(large);
-  settle(large);
+  noteWidth(a);
+  settle(a);
   return a;
 }
 

@@ -10,23 +10,31 @@
 namespace rg::glass {
 namespace {
 
-constexpr int kRestStride = 4;  // as in drops.cpp: drops at rest are looked at every fourth tick
+constexpr int kRestStride = 4;  // drops at rest are looked at every fourth tick: ...
+constexpr uint64_t kEveryFourth =
+    0x1111111111111111u;  // ... each slot of a word by itself, or a word at once
 constexpr double kBoundaryLayer_m =
     10e-3;  // thickness of the air's boundary layer on the glass (unsourced); profile: one-seventh power
 constexpr double kFastest_mps =
     1.0;  // nothing faster than 0.7 m/s was seen sliding (Li et al. 2023); wind may add
 constexpr double kMeander = 0.5;  // tangent of the largest turn that uneven glass gives a path (unsourced)
 constexpr int kMostAside = 2;     // texels
+constexpr float kSmallestPearl = 0.08f;  // of the radius
 
-// Drag of the wind on a cap: C_D 1 on its outline seen from the side, wind at its height. physics.md 3,
+// In single precision, which is enough for what they tell: they are worked out for each drop that moves.
+float power(float base, float exponent) { return std::pow(base, exponent); }
+float exponential(double x) { return std::exp(static_cast<float>(x)); }
+
+// Drag of the wind on a cap: C_D 1 on its outline seen along the wind, wind at its height. physics.md 3,
 // "depinning by wind".
 struct Drag {
-  double height_m, profile;  // of the free air's speed at the cap's height
+  double height_m, share2;  // of the free air's speed at the cap's height, its square
   explicit Drag(const Drop& drop) : height_m(static_cast<double>(drop.height_m)) {
-    profile = std::pow(std::min(1.0, height_m / kBoundaryLayer_m), 1.0 / 7.0);
+    share2 = static_cast<double>(
+        power(static_cast<float>(std::min(1.0, height_m / kBoundaryLayer_m)), 2.0f / 7.0f));
   }
   double perSquare_n(double width_m) const {  // of air of 1 m/s
-    return 0.5 * kRhoAir_kg_m3 * (2.0 / 3.0 * height_m * width_m) * profile;
+    return 0.5 * kRhoAir_kg_m3 * capOutline_m2(height_m, 0.5 * width_m) * share2;
   }
 };
 
@@ -38,33 +46,53 @@ glm::dvec2 halfTurned(glm::dvec2 v, glm::dvec2 near) {
   return glm::dot(axis, near) < 0.0 ? -axis : axis;
 }
 
-// Of what holds a drop, what the greatest forces of its tile together may take.
-float greatestShare(const DropWorld& world, const Drop& drop) {
-  const ForceField::Most& most = world.forces.mostAbout(world.map, drop.place_m);
-  return drop.acceleration_s2_m * most.acceleration_mps2 + drop.air2_s2_m2 * most.air_mps * most.air_mps;
-}
-
 }  // namespace
 
 void Drops::move(const DropWorld& world) {
-  const auto phase = static_cast<int>((world.tick % kRestStride + kRestStride) % kRestStride);
-  const int count = static_cast<int>(slots_.items.size());
   over_edges_.clear();
-  for (int slot = 0; slot < count; ++slot) {
-    const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-    if (drop.volume_pl == 0) continue;
-    if (drop.moving || (slot % kRestStride == phase && mayMove(world, drop))) slide(world, slot);
+  const auto phase = static_cast<size_t>((world.tick % kRestStride + kRestStride) % kRestStride);
+  for (size_t word = 0; word * SlotSet::kInWord < slots_.items.size(); ++word) {
+    uint64_t bits = moving_.word(word) | (uneasy_.word(word) & (kEveryFourth << phase));
+    if (word % kRestStride == phase) {
+      forEachSlot(word, braced_.word(word), [&](int slot) {
+        if (mayMove(world, slot)) bits |= uint64_t{1} << (slot % SlotSet::kInWord);
+      });
+    }
+    // What moves lies anywhere in memory: it is asked for before it is waited for.
+    forEachSlot(word + 2, moving_.word(word + 2), [&](int slot) { fetch(slot); });
+    forEachSlot(word + 1, moving_.word(word + 1), [&](int slot) {
+      const int texel = slots_.items[static_cast<size_t>(slot)].texel;
+      world.glass.fetch(texel);
+      world.film.fetch(texel);
+    });
+    forEachSlot(word, bits, [&](int slot) { slide(world, slot); });
   }
 }
 
-// Not where even the greatest forces of its tile together are too weak and are what they were when it took
-// its shape: most drops, most of the time.
-bool Drops::mayMove(const DropWorld& world, const Drop& drop) {
-  if (!drop.braced) return true;
+// Not where even the greatest forces of its tile together are too weak and all of them are what they were
+// when it took its shape: most drops, most of the time.
+bool Drops::mayMove(const DropWorld& world, int slot) const {
   constexpr float kRounding = 0.999f;
   constexpr float kOther = 0.03f;  // makes one of the mean contact angle 0.014 longer, where glass holds best
-  const float share = greatestShare(world, drop);
-  return share > kRounding || std::abs(share - drop.braced_share) > kOther;
+  const Hold& hold = holds_[static_cast<size_t>(slot)];
+  const ForceField::About& about = world.forces.about(hold.tile);
+  const glm::vec2 other =
+      hold.acceleration_s2_m * about.acceleration_mps2 + hold.air2_s2_m2 * about.air2_m2_s2 - hold.share;
+  return hold.acceleration_s2_m * about.most_acceleration_mps2 + hold.air2_s2_m2 * about.most_air2_m2_s2 >
+             kRounding ||
+         glm::dot(other, other) > kOther * kOther;
+}
+
+void Drops::brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double hold_n) {
+  Hold& hold = holds_[static_cast<size_t>(slot)];
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  hold.acceleration_s2_m = static_cast<float>(mass_kg / hold_n);
+  hold.air2_s2_m2 = static_cast<float>(drag_s2_m2);
+  hold.tile = world.forces.tileAt(world.map, drop.place_m);
+  const ForceField::About& about = world.forces.about(hold.tile);
+  hold.share = hold.acceleration_s2_m * about.acceleration_mps2 + hold.air2_s2_m2 * about.air2_m2_s2;
+  drop.braced_pl = static_cast<float>(drop.volume_pl);
+  become(slot, Pose::braced);
 }
 
 void Drops::slide(const DropWorld& world, int slot) {
@@ -77,40 +105,40 @@ void Drops::slide(const DropWorld& world, int slot) {
   const double mass_kg = kRho_kg_m3 * cubicMetres(drop.volume_pl);
   const Drag drag(drop);
   const double air = glm::length(push.air_mps);
-  const double facing_m = air > 0.0 ? widthAcross_m(drop, push.air_mps / air) : 0.0;
-  const glm::dvec2 force_n =
-      mass_kg * push.acceleration_mps2 + drag.perSquare_n(facing_m) * air * push.air_mps;
+  glm::dvec2 force_n = mass_kg * push.acceleration_mps2;
+  if (air > 0.0) force_n += drag.perSquare_n(widthAcross_m(drop, push.air_mps / air)) * air * push.air_mps;
   const double force = glm::length(force_n);
   const double hold_n = hold_per_m_ * width_m;
   const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
-  if (!drop.moving && force <= hold_n) {
-    drop.braced = reshape(drop, toward, force, 0.0, kRestStride * kTickSeconds);
-    drop.acceleration_s2_m = static_cast<float>(mass_kg / hold_n);
-    drop.air2_s2_m2 =  // at most, which is from its side
-        static_cast<float>(drag.perSquare_n(2.0 * static_cast<double>(halfLength_m(drop))) / hold_n);
-    drop.braced_share = greatestShare(world, drop);
+  if (drop.pose != Pose::moving && force <= hold_n) {
+    if (reshape(slot, toward, force, 0.0, kRestStride * kTickSeconds)) {
+      const double from_its_side_n = drag.perSquare_n(2.0 * static_cast<double>(halfLength_m(drop)));
+      brace(world, slot, mass_kg, from_its_side_n / hold_n, hold_n);
+    } else {
+      become(slot, Pose::uneasy);
+    }
     return;
   }
-  drop.braced = false;
 
   // Uneven glass: a turn of the path that depends on the place alone.
   const double turn = kMeander * static_cast<double>(shared::unevenness(world.glass.level(drop.texel)));
   const glm::dvec2 path = (toward + turn * glm::dvec2(-toward.y, toward.x)) / std::sqrt(1.0 + turn * turn);
   const double friction_kg_s = surface_.friction * width_m * kMu_pa_s;
   const double aim_mps = std::min(std::max(0.0, force - hold_n) / friction_kg_s, kFastest_mps);
-  const double ease = 1.0 - std::exp(-kTickSeconds * friction_kg_s / mass_kg);
+  const double ease = 1.0 - static_cast<double>(exponential(-kTickSeconds * friction_kg_s / mass_kg));
   glm::dvec2 velocity(drop.velocity_mps);
   velocity += (aim_mps * path - velocity) * ease;
   const double speed = glm::length(velocity);
-  drop.moving = speed > 1e-3 || force > hold_n;
-  if (!drop.moving) velocity = glm::dvec2(0.0);
+  const bool moves = speed > 1e-3 || force > hold_n;
+  become(slot, moves ? Pose::moving : Pose::uneasy);
+  if (!moves) velocity = glm::dvec2(0.0);
   drop.velocity_mps = glm::vec2(velocity);
   if (speed < 1e-5) return;
 
   const glm::dvec2 from_m = drop.place_m;
   moveTo(slot, from_m + velocity / push.metres * kTickSeconds);
   const glm::dvec2 ahead = velocity / speed;
-  reshape(drop, ahead, force, speed, kTickSeconds);
+  reshape(slot, ahead, force, speed, kTickSeconds);
   const int texel = world.map.texelAt(drop.place_m);
   if (overEdge(world, slot, texel)) return;
   if (texel != drop.texel) {
@@ -119,14 +147,15 @@ void Drops::slide(const DropWorld& world, int slot) {
   }
   if (!drop.changed) changed_.push_back(slot);
   drop.changed = true;
-  leaveTrail(world, drop, ahead, speed, push.metres);
+  leaveTrail(world, slot, ahead, speed, push.metres);
 }
 
 // A base comes to the length and tail that its motion wants as it goes its own radius, or as its contact line
 // does by itself. What rests is pinned: it grows longer, but shorter only as far as the line recedes, and
 // loses its corner as it does. Two lengths at an angle add up as strains do, each with twice its angle.
 // Whether it has come there.
-bool Drops::reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_mps, double seconds) {
+bool Drops::reshape(int slot, glm::dvec2 along, double force_n, double speed_mps, double seconds) {
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double longer = static_cast<double>(drop.elongation) - 1.0;
   const double at_rest = lengthAtRest(force_n, cubicMetres(drop.volume_pl), radius_m);
@@ -135,7 +164,7 @@ bool Drops::reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_m
   double wanted = std::max(at_rest, with_corner) - 1.0;
   // A tail that has become the head, as the wind turned, goes by way of a round one.
   const double corner = std::copysign(with_corner / (1.0 + wanted), glm::dot(heading, along));
-  if (!drop.moving && wanted < longer) {
+  if (drop.pose != Pose::moving && wanted < longer) {
     const double pinned =
         longestPinned(static_cast<double>(drop.height_m), radius_m, tan_half_receding_, tan_half_advancing_);
     wanted = std::max(wanted, std::min(longer, pinned - 1.0));
@@ -144,11 +173,12 @@ bool Drops::reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_m
   const glm::dvec2 now = longer * twiceTurned(heading), aim = wanted * twiceTurned(along);
   const double corner_off = corner - static_cast<double>(drop.corner);
   constexpr double kThere = 0.01;
-  if (glm::length(aim - now) < kThere && std::abs(corner_off) < kThere) return true;
+  const auto there = [](glm::dvec2 off) { return glm::dot(off, off) < kThere * kThere; };
+  if (there(aim - now) && std::abs(corner_off) < kThere) return true;
 
   const auto share = [&](bool grows) {
     const double line_mps = grows ? advancing_mps_ : receding_mps_;
-    return 1.0 - std::exp(-seconds * (speed_mps + line_mps) / radius_m);
+    return 1.0 - static_cast<double>(exponential(-seconds * (speed_mps + line_mps) / radius_m));
   };
   const bool grows = wanted > longer,
              sharpens = std::abs(corner) > std::abs(static_cast<double>(drop.corner));
@@ -158,10 +188,10 @@ bool Drops::reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_m
   drop.elongation = static_cast<float>(1.0 + length);
   if (length > 1e-6) drop.heading = glm::vec2(halfTurned(strain / length, heading));
   drop.corner += static_cast<float>(corner_off * of_corner);
-  if (!drop.moving)
+  if (drop.pose != Pose::moving)
     drop.height_m = heightOf_m(drop);  // of others it is worked out once they left their trail
-  noteWidth(drop);
-  return glm::length(aim - strain) < kThere && std::abs(corner_off) * (1.0 - of_corner) < kThere;
+  noteWidth(slot);
+  return there(aim - strain) && std::abs(corner_off) * (1.0 - of_corner) < kThere;
 }
 
 // A fast drop passes more than a texel in a tick.
@@ -207,11 +237,13 @@ bool Drops::overEdge(const DropWorld& world, int slot, int texel) {
 }
 
 // A film behind the tail, thicker the faster (Landau & Levich 1942: speed^(2/3)), and pearls.
-void Drops::leaveTrail(const DropWorld& world, Drop& drop, glm::dvec2 ahead, double speed_mps,
+void Drops::leaveTrail(const DropWorld& world, int slot, glm::dvec2 ahead, double speed_mps,
                        glm::dvec2 metres) {
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double way_m = speed_mps * kTickSeconds;
   const double width_m = 2.0 * static_cast<double>(drop.base_radius_m);
-  const double film_m = surface_.trail_film_m * std::pow(speed_mps / 0.1, 2.0 / 3.0);
+  const double film_m =
+      surface_.trail_film_m * static_cast<double>(power(static_cast<float>(speed_mps / 0.1), 2.0f / 3.0f));
   const int64_t film_pl = std::min(picolitres(film_m * 0.5 * width_m * way_m), drop.volume_pl / 50);
   if (film_pl > 0 && world.film.attached()) {
     drop.volume_pl -= film_pl;
@@ -221,21 +253,23 @@ void Drops::leaveTrail(const DropWorld& world, Drop& drop, glm::dvec2 ahead, dou
     drop.since_pearl_m += static_cast<float>(way_m);
     leavePearl(world, drop, ahead, metres);
   }
-  settle(drop);
+  settle(slot);
 }
 
 // Tails pinch off droplets of a tenth to a fifth of the width, every few of their own sizes (Podgorski,
 // Flesselles & Limat 2001; sizes by eye).
 void Drops::leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 ahead, glm::dvec2 metres) {
+  // It takes at least 4 of the smallest to the next.
+  if (drop.since_pearl_m < 4.0f * kSmallestPearl * drop.base_radius_m) return;
   const uint32_t h = shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(drop.texel)));
   const double radius_m =
-      static_cast<double>(drop.base_radius_m) * (0.08 + 0.16 * static_cast<double>(shared::unitFloat(h)));
+      static_cast<double>(drop.base_radius_m) *
+      (static_cast<double>(kSmallestPearl) + 0.16 * static_cast<double>(shared::unitFloat(h)));
   if (static_cast<double>(drop.since_pearl_m) <
       radius_m * (4.0 + 10.0 * static_cast<double>(shared::unitFloat(shared::pcg(h)))))
     return;
   drop.since_pearl_m = 0.0f;
-  const double mean_rad = 0.5 * (surface_.advancing_rad + surface_.receding_rad);
-  const int64_t pearl_pl = picolitres(capShape(mean_rad) * radius_m * radius_m * radius_m);
+  const int64_t pearl_pl = picolitres(shape_mean_ * radius_m * radius_m * radius_m);
   if (pearl_pl > drop.volume_pl / 20 || pearl_pl < 200) return;
   const double back_m = static_cast<double>(halfLength_m(drop)) + 1.5 * radius_m;
   const double aside = (static_cast<double>(shared::unitFloat(shared::pcg(h + 1u))) - 0.5) *

@@ -49,8 +49,11 @@ inline double lengthWithCorner(double speed_mps, double receding_mps) {
 
 // Height of a cap of this volume whose base has the area of a circle of this radius and is so long: that of a
 // spherical cap on a base as wide, stretched along it.
+inline double capHeightFrom(double start_m, double volume_m3, double base_radius_m, double elongation) {
+  return capHeightFrom(start_m, volume_m3 / elongation, base_radius_m / std::sqrt(elongation));
+}
 inline double capHeight(double volume_m3, double base_radius_m, double elongation) {
-  return capHeight(volume_m3 / elongation, base_radius_m / std::sqrt(elongation));
+  return capHeightFrom(0.0, volume_m3, base_radius_m, elongation);
 }
 
 }  // namespace rg::glass

@@ -43,8 +43,9 @@ double widthAcross_m(const Drop& drop, glm::dvec2 along) {
 }
 
 float heightOf_m(const Drop& drop) {
-  return static_cast<float>(capHeight(cubicMetres(drop.volume_pl), static_cast<double>(drop.base_radius_m),
-                                      static_cast<double>(drop.elongation)));
+  return static_cast<float>(capHeightFrom(static_cast<double>(drop.height_m), cubicMetres(drop.volume_pl),
+                                          static_cast<double>(drop.base_radius_m),
+                                          static_cast<double>(drop.elongation)));
 }
 
 Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
@@ -63,20 +64,29 @@ Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
       tan_half_receding_(std::tan(0.5 * surface.receding_rad)) {
   slots_.capacity_ = capacity;
   slots_.items.reserve(capacity);
+  nears_.reserve(capacity);
+  holds_.reserve(capacity);
   slots_.free.reserve(capacity);
   cells_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), {});
   block_count_ = (cell_count_ + (kBlock - 1)) / kBlock;
   widest_m_.assign(static_cast<size_t>(block_count_.x * block_count_.y), 0.0f);
+  for (int y = 0; y < cell_count_.y; ++y) {
+    for (int x = 0; x < cell_count_.x; ++x)
+      cells_[static_cast<size_t>(y * cell_count_.x + x)].block = y / kBlock * block_count_.x + x / kBlock;
+  }
 }
 
 void Drops::clear() {
   slots_.items.clear();
+  nears_.clear();
+  holds_.clear();
   slots_.free.clear();
+  for (SlotSet* set : {&moving_, &uneasy_, &braced_}) set->clear();
   changed_.clear();
-  std::fill(cells_.begin(), cells_.end(), Cell{});
+  for (Cell& cell : cells_) cell.first = -1;
   std::fill(widest_m_.begin(), widest_m_.end(), 0.0f);
   live_ = 0;
-  largest_radius_m_ = 0.0;
+  largest_radius_m_ = 0.0f;
 }
 
 int64_t Drops::volume_pl() const {
@@ -85,51 +95,63 @@ int64_t Drops::volume_pl() const {
   return sum;
 }
 
-glm::ivec2 Drops::cellAt(glm::dvec2 place_m) const {
-  return glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
-}
-
-size_t Drops::cellOf(glm::dvec2 place_m) const {
-  const glm::ivec2 cell = cellAt(place_m);
-  return static_cast<size_t>(cell.y * cell_count_.x + cell.x);
+void Drops::become(int slot, Pose pose) {
+  Pose& now = slots_.items[static_cast<size_t>(slot)].pose;
+  if (now == pose) return;
+  const auto of = [this](Pose which) {
+    return which == Pose::moving ? &moving_ : which == Pose::uneasy ? &uneasy_ : &braced_;
+  };
+  if (now != Pose::gone) of(now)->put(slot, false);
+  if (pose != Pose::gone) of(pose)->put(slot, true);
+  now = pose;
 }
 
 void Drops::link(int slot) {
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  Cell& cell = cells_[cellOf(drop.place_m)];
-  drop.next = cell.first;
+  drop.cell = cellOf(drop.place_m);
+  Cell& cell = cells_[static_cast<size_t>(drop.cell)];
+  nears_[static_cast<size_t>(slot)].place_m = glm::vec2(drop.place_m);
+  nears_[static_cast<size_t>(slot)].next = cell.first;
   cell.first = slot;
-  noteWidth(drop);
+  noteWidth(slot);
 }
 
 void Drops::unlink(int slot) {
-  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  int32_t* at = &cells_[cellOf(drop.place_m)].first;
-  while (*at != slot) at = &slots_.items[static_cast<size_t>(*at)].next;
-  *at = drop.next;
+  int32_t* at = &cells_[static_cast<size_t>(slots_.items[static_cast<size_t>(slot)].cell)].first;
+  while (*at != slot) at = &nears_[static_cast<size_t>(*at)].next;
+  *at = nears_[static_cast<size_t>(slot)].next;
 }
 
 void Drops::moveTo(int slot, glm::dvec2 place_m) {
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const bool stays = cellOf(place_m) == cellOf(drop.place_m);
+  const bool stays = cellOf(place_m) == drop.cell;
   if (!stays) unlink(slot);
   drop.place_m = place_m;
-  if (!stays) link(slot);
+  if (stays)
+    nears_[static_cast<size_t>(slot)].place_m = glm::vec2(place_m);
+  else
+    link(slot);
+}
+
+// A drop of another volume than before: what rests has to be looked at.
+void Drops::settle(int slot) {
+  if (slots_.items[static_cast<size_t>(slot)].pose == Pose::braced) become(slot, Pose::uneasy);
+  fitAngle(slot);
 }
 
 // A contact line moves where the angle would leave the range between receding and advancing; otherwise it is
 // pinned.
-void Drops::settle(Drop& drop) {
-  drop.braced = false;
+void Drops::fitAngle(int slot) {
+  Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double volume_m3 = cubicMetres(drop.volume_pl);
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double shape = volume_m3 / (radius_m * radius_m * radius_m);
-  if (!(shape <= shape_advancing_)) {
-    drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_advancing_));
-    noteWidth(drop);
+  const bool advances = !(shape <= shape_advancing_), recedes = shape < shape_receding_;
+  if (advances || recedes) {
+    drop.base_radius_m =
+        static_cast<float>(std::cbrt(volume_m3 / (advances ? shape_advancing_ : shape_receding_)));
+    noteWidth(slot);
   }
-  if (shape < shape_receding_)
-    drop.base_radius_m = static_cast<float>(std::cbrt(volume_m3 / shape_receding_));
   drop.height_m = heightOf_m(drop);
 }
 
@@ -144,6 +166,8 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
   } else if (slots_.items.size() < slots_.capacity_) {
     slot = static_cast<int>(slots_.items.size());
     slots_.items.emplace_back();
+    nears_.emplace_back();
+    holds_.emplace_back();
   } else {
     return -1;
   }
@@ -159,12 +183,13 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
   const double turn =
       6.283185307179586 * static_cast<double>(shared::unitFloat(shared::pcg(seed ^ 0x51ed270bu)));
   drop.heading = glm::vec2(glm::dvec2(std::cos(turn), std::sin(turn)));
+  become(slot, Pose::uneasy);
+  link(slot);
   if (as_told) {
     drop.height_m = heightOf_m(drop);
   } else {
-    settle(drop);
+    fitAngle(slot);
   }
-  link(slot);
   ++live_;
   drop.changed = true;
   changed_.push_back(slot);
@@ -174,6 +199,7 @@ int Drops::add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, do
 int64_t Drops::remove(int slot) {
   unlink(slot);
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  become(slot, Pose::gone);
   slots_.free.push_back(slot);
   --live_;
   return std::exchange(drop.volume_pl, 0);
@@ -193,7 +219,7 @@ int64_t Drops::cut(int slot, int64_t keep_pl) {
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const int64_t taken_pl = drop.volume_pl - keep_pl;
   drop.volume_pl = keep_pl;
-  settle(drop);
+  settle(slot);
   return taken_pl;
 }
 
@@ -217,7 +243,7 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
   if (under >= 0) {
     Drop& drop = slots_.items[static_cast<size_t>(under)];
     drop.volume_pl += volume_pl;
-    settle(drop);
+    settle(under);
     if (!drop.changed) changed_.push_back(under);
     drop.changed = true;
     return false;
@@ -303,7 +329,7 @@ void Drops::give(const DropWorld& world, const Taker& taker, int64_t volume_pl) 
     Drop& drop = slots_.items[taker.slot];
     if (drop.volume_pl > 0 && drop.life == taker.life) {
       drop.volume_pl += volume_pl;
-      settle(drop);
+      settle(static_cast<int>(taker.slot));
       return;
     }
   }
@@ -312,45 +338,54 @@ void Drops::give(const DropWorld& world, const Taker& taker, int64_t volume_pl) 
 
 void Drops::age(const DropWorld& world) {
   const auto phase = static_cast<size_t>(world.tick % kAgeStride + kAgeStride) % kAgeStride;
-  for (size_t slot = phase; slot < slots_.items.size(); slot += kAgeStride) {
-    Drop& drop = slots_.items[slot];
-    if (drop.volume_pl == 0) continue;
-    const double film_m = world.film.thickness_m(drop.texel);
-    // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
-    const bool drowns = film_m > 2.0 * surface_.wetting_m &&
-                        static_cast<double>(drop.height_m) < 5.0 * film_m &&
-                        shared::unitFloat(shared::pcg(drop.seed + static_cast<uint32_t>(world.tick))) < 0.22f;
-    if (drowns) {
-      const glm::dvec2 place = drop.place_m;
-      const double radius_m = static_cast<double>(drop.base_radius_m);
-      world.film.spread(place, ForceField::metresAt(world.map, place),
-                        1.5 * radius_m + world.map.grid().texel_m, remove(static_cast<int>(slot)));
-      continue;
-    }
-    if (world.humidity < 1.0) dry(world, static_cast<int>(slot));
+  for (size_t word = phase; word * SlotSet::kInWord < slots_.items.size(); word += kAgeStride) {
+    forEachSlot(word, moving_.word(word) | uneasy_.word(word) | braced_.word(word),
+                [&](int slot) { age(world, slot); });
   }
 }
 
+void Drops::age(const DropWorld& world, int slot) {
+  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
+  const double film_m = world.film.thickness_m(drop.texel);
+  // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
+  const bool drowns = film_m > 2.0 * surface_.wetting_m &&
+                      static_cast<double>(drop.height_m) < 5.0 * film_m &&
+                      shared::unitFloat(shared::pcg(drop.seed + static_cast<uint32_t>(world.tick))) < 0.22f;
+  if (drowns) {
+    const glm::dvec2 place = drop.place_m;
+    const double radius_m = static_cast<double>(drop.base_radius_m);
+    world.film.spread(place, ForceField::metresAt(world.map, place),
+                      1.5 * radius_m + world.map.grid().texel_m, remove(slot));
+  } else if (world.humidity < 1.0) {
+    dry(world, slot);
+  }
+}
+
+// A braced drop that dries stays so: what it loses frees it less than what holds it gets weaker. As it has
+// become noticeably smaller its shape is looked at anew.
 void Drops::dry(const DropWorld& world, int slot) {
+  constexpr float kNoticed = 0.97f;
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double radius_m = static_cast<double>(drop.base_radius_m);
-  const double theta = capAngle(static_cast<double>(drop.height_m), radius_m);
-  const double air_mps = glm::length(world.forces.at(world.map, drop.place_m).air_mps);
+  const double theta = static_cast<double>(2.0f * std::atan(drop.height_m / drop.base_radius_m));
   const double rate_kg_s = evaporation_kg_s(radius_m, theta, world.humidity, world.saturated_kg_m3) *
-                           ventilation(air_mps, 2.0 * radius_m);
+                           ventilation(world.forces.airSpeed_mps(world.map, drop.place_m), 2.0 * radius_m);
   const double lost = rate_kg_s / kRho_kg_m3 * kAgeStride * kTickSeconds * kPicolitresPerM3;
   // Whole picolitres; the rest by chance, so that the mean is right.
   const double chance = static_cast<double>(
       shared::unitFloat(shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(world.tick)))));
   int64_t lost_pl = std::min(static_cast<int64_t>(lost + chance), drop.volume_pl);
   if (drop.volume_pl - lost_pl < kLeastDrop_pl) lost_pl = drop.volume_pl;
+  if (lost_pl == 0) return;
   if (lost_pl == drop.volume_pl) {
     world.ledger.evaporated_pl += passed(LeakyKernel::evaporation, remove(slot));
     return;
   }
   world.ledger.evaporated_pl += passed(LeakyKernel::evaporation, lost_pl);
   drop.volume_pl -= lost_pl;
-  settle(drop);
+  if (drop.pose == Pose::braced && static_cast<float>(drop.volume_pl) < kNoticed * drop.braced_pl)
+    become(slot, Pose::uneasy);
+  fitAngle(slot);
 }
 
 uint64_t Drops::hash(uint64_t start) const {

@@ -2,6 +2,7 @@
 // only ever move from one place to another.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -12,33 +13,37 @@
 #include "glass/impact.h"
 #include "glass/ledger.h"
 #include "glass/pane_map.h"
+#include "glass/slot_set.h"
 #include "glass/uneven_glass.h"
 #include "glass/water.h"
 
 namespace rg::glass {
 
-// In thirds of 32 bytes, none of them across two lines of the cache: where it is and how wide, nearly all
-// that a neighbour asks; whether it moves, asked of each drop in each tick; the rest.
+enum class Pose : uint8_t {
+  gone,    // the slot is free
+  uneasy,  // at rest, to be looked at
+  braced,  // at rest, and has its size and shape of when it came to rest
+  moving,
+};
+
+// In thirds of 32 bytes, none of them across two lines of the cache.
 struct alignas(32) Drop {
   glm::dvec2 place_m{0.0};     // grid metres
   float base_radius_m = 0.0f;  // of a circle of the base's area, real
   float elongation = 1.0f;     // length over width of the base, an ellipse; see drop_shape.h
-  int32_t next = -1;           // in its cell's list
+  int32_t cell = 0;            // of the neighbour grid, that it is in
   float corner = 0.0f;         // at the end its heading leaves, see shared::cornered; < 0: at the other
 
-  int64_t volume_pl = 0;  // 0: the slot is free
-  bool moving = false;
-  bool braced = false;             // the three below hold: it rests and has its size and shape of then
-  bool changed = false;            // has to be looked at for neighbours it touches
-  float acceleration_s2_m = 0.0f;  // share of what holds it that an acceleration of 1 m/s^2 takes
-  float air2_s2_m2 = 0.0f;         // ... and air of 1 m/s, with its square
-  float braced_share = 0.0f;       // ... and the forces of its tile, of when it came to rest
-  glm::vec2 heading{1.0f, 0.0f};   // along the base
-
-  int32_t texel = 0;
-  glm::vec2 velocity_mps{0.0f};  // real, grid axes
+  int64_t volume_pl = 0;          // 0: the slot is free
+  glm::vec2 heading{1.0f, 0.0f};  // along the base
   float height_m = 0.0f;
-  float since_pearl_m = 0.0f;  // way since it last left a droplet behind
+  int32_t texel = 0;
+  float braced_pl = 0.0f;  // its volume when it came to rest
+  Pose pose = Pose::gone;
+  bool changed = false;  // has to be looked at for neighbours it touches
+
+  glm::vec2 velocity_mps{0.0f};  // real, grid axes
+  float since_pearl_m = 0.0f;    // way since it last left a droplet behind
   uint32_t seed = 0;
   uint32_t life = 0;  // counts the drops that had this slot
 };
@@ -48,7 +53,7 @@ inline float halfLength_m(const Drop& drop) { return drop.base_radius_m * std::s
 double reachTowards_m(const Drop& drop, glm::dvec2 way_m);
 // How wide the base is, seen along a unit vector.
 double widthAcross_m(const Drop& drop, glm::dvec2 along);
-// Of the cap of its base and volume.
+// Of the cap of its base and volume; sooner found the nearer it is to its height so far.
 float heightOf_m(const Drop& drop);
 
 // What drops of a pane have in common during a tick.
@@ -111,10 +116,25 @@ class Drops {
     std::vector<int32_t> free;
     size_t capacity_ = 0;
   };
+  // What a neighbour asks of a drop.
+  struct Near {
+    glm::vec2 place_m{0.0f};
+    float half_m = 0.0f;  // its base's half length
+    int32_t next = -1;    // in its cell's list
+  };
+  // What forces that may set a braced drop going ask of it.
+  struct Hold {
+    float acceleration_s2_m = 0.0f;  // share of what holds it that an acceleration of 1 m/s^2 takes
+    float air2_s2_m2 = 0.0f;         // ... and air of 1 m/s, with its square
+    glm::vec2 share{0.0f};           // ... and the forces about it, of when it came to rest
+    int32_t tile = 0;
+  };
+  void become(int slot, Pose pose);
   void slide(const DropWorld& world, int slot);
-  static bool mayMove(const DropWorld& world, const Drop& drop);
-  bool reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_mps, double seconds);
-  void leaveTrail(const DropWorld& world, Drop& drop, glm::dvec2 ahead, double speed_mps, glm::dvec2 metres);
+  void brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double hold_n);
+  bool mayMove(const DropWorld& world, int slot) const;
+  bool reshape(int slot, glm::dvec2 along, double force_n, double speed_mps, double seconds);
+  void leaveTrail(const DropWorld& world, int slot, glm::dvec2 ahead, double speed_mps, glm::dvec2 metres);
   void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 ahead, glm::dvec2 metres);
   void takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, glm::dvec2 ahead, double width_m);
   void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm::dvec2 ahead, double width_m);
@@ -126,32 +146,51 @@ class Drops {
   int covering(const DropWorld& world, glm::dvec2 place_m) const;
   int touching(const DropWorld& world, int slot) const;
   int unite(const DropWorld& world, int a, int b);
+  void age(const DropWorld& world, int slot);
   void dry(const DropWorld& world, int slot);
-  void settle(Drop& drop);
+  void settle(int slot);
+  void fitAngle(int slot);
+  void fetch(int slot) const {
+    for (const int third : {0, 2})
+      __builtin_prefetch(reinterpret_cast<const char*>(&slots_.items[static_cast<size_t>(slot)]) +
+                         32 * third);
+  }
   void fetchAbout(int slot) const;
   void findWidest();
-  void noteWidth(const Drop& drop);
-  double widestAbout_m(glm::dvec2 place_m, glm::dvec2 reach_m) const;
+  void noteWidth(int slot);
+  float widestAbout_m(glm::vec2 place_m, glm::vec2 reach_m) const;
   template <class Met>
-  int firstAbout(const DropWorld& world, glm::dvec2 place_m, double beyond_m, const Met& met) const;
+  int firstAbout(const DropWorld& world, glm::dvec2 place_m, float own_m, float overlap,
+                 const Met& met) const;
   void link(int slot);
   void unlink(int slot);
   void moveTo(int slot, glm::dvec2 place_m);
-  glm::ivec2 cellAt(glm::dvec2 place_m) const;
-  size_t cellOf(glm::dvec2 place_m) const;
+  // The cell of a place; of one off the pane, the nearest.
+  static int within(float cells, int count) {
+    return static_cast<int>(std::clamp(cells, 0.0f, static_cast<float>(count - 1)));
+  }
+  int columnAt(float x_m) const { return within(x_m * kPerMetre, cell_count_.x); }
+  int rowAt(float y_m) const { return within(y_m * kPerMetre, cell_count_.y); }
+  int32_t cellOf(glm::dvec2 place_m) const {
+    return rowAt(static_cast<float>(place_m.y)) * cell_count_.x + columnAt(static_cast<float>(place_m.x));
+  }
 
   const PaneMap& map_;
   const Surface& surface_;
   Slots slots_;
+  std::vector<Near> nears_;  // of each slot, as the next
+  std::vector<Hold> holds_;
+  SlotSet moving_, uneasy_, braced_;
   struct Cell {
-    int32_t first = -1;     // of its drops
-    float widest_m = 0.0f;  // none of them has a greater radius
+    int32_t first = -1;  // of its drops
+    int32_t block = 0;
   };
   std::vector<Cell> cells_;
   static constexpr int kBlock = 8;  // cells along a block's side
   std::vector<float> widest_m_;     // of each block's drops none has a greater radius
   glm::ivec2 block_count_{0};
   static constexpr double kCell_m = 8e-3;  // of the neighbour grid: few drops are wider
+  static constexpr float kPerMetre = static_cast<float>(1.0 / kCell_m);
   glm::ivec2 cell_count_{0};
   std::vector<int32_t> changed_;
   std::vector<GoneDrop> over_edges_;
@@ -161,7 +200,7 @@ class Drops {
   double hold_per_m_;                                     // retention for a metre of width, N/m
   double advancing_mps_, receding_mps_;                   // of a contact line that nothing else moves
   double tan_half_advancing_, tan_half_receding_;
-  double largest_radius_m_ = 0.0;
+  float largest_radius_m_ = 0.0f;
 };
 
 }  // namespace rg::glass

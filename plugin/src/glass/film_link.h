@@ -46,6 +46,7 @@ class FilmLink {
   // Gives water to a texel, or evenly to those within a radius (real metres, `metres` real for a grid metre).
   // Places off the pane get none of it.
   void add(int texel, int64_t volume_pl);
+  void fetch(int texel) const { __builtin_prefetch(&sums_[static_cast<size_t>(texel)], 1); }  // before add
   // Beads to a texel: they lie there, or join its film where that flows.
   void addBeads(int texel, int64_t volume_pl, int number);
   Footprint within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m) const;

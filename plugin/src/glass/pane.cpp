@@ -453,8 +453,9 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
     if (drop.volume_pl == 0) continue;
     shared::GlassDropRecord record{};
     record.position_m = glm::vec2(drop.place_m);
-    const glm::vec2 metres =
-        drop.moving ? glm::vec2(state_->forces.at(state_->map, drop.place_m).metres) : glm::vec2(1.0f);
+    const glm::vec2 metres = drop.pose == Pose::moving
+                                 ? glm::vec2(state_->forces.at(state_->map, drop.place_m).metres)
+                                 : glm::vec2(1.0f);
     record.velocity_mps = drop.velocity_mps / metres;
     record.heading = drop.heading;
     record.base_radius_m = drop.base_radius_m;

@@ -17,6 +17,7 @@ class UnevenGlass {
 
   // Of each texel, 0 the easiest .. shared::kMostUneven, see shared::unevenness.
   int level(int texel) const { return levels_[static_cast<size_t>(texel)]; }
+  void fetch(int texel) const { __builtin_prefetch(&levels_[static_cast<size_t>(texel)]); }
 
  private:
   std::vector<uint8_t> levels_;

@@ -41,13 +41,23 @@ inline double capShape(double theta_rad) {
   return std::numbers::pi * (1.0 - c) * (1.0 - c) * (2.0 + c) / (3.0 * s * s * s);
 }
 
-// Height of the cap of volume V over a base of radius R: the real root of h^3 + 3 R^2 h - 6 V / pi = 0
-// (Cardano).
+// Height of the cap of volume V over a base of radius R: the real root of h^3 + 3 R^2 h - 6 V / pi = 0, by
+// Newton's steps. From wherever they start the first goes beyond the root and the others come down to it;
+// near it, as of a drop that has hardly changed since, there are one or two: what a step leaves is its
+// square.
+inline double capHeightFrom(double start_m, double volume_m3, double base_radius_m) {
+  constexpr double kClose = 1e-5;
+  const double r2 = base_radius_m * base_radius_m, sixth = 6.0 / std::numbers::pi * volume_m3;
+  double h = start_m;
+  for (int steps = 0; steps < 60; ++steps) {
+    const double next = (2.0 * h * h * h + sixth) / (3.0 * (h * h + r2)), step = next - h;
+    h = next;
+    if (std::abs(step) <= kClose * h) break;
+  }
+  return h;
+}
 inline double capHeight(double volume_m3, double base_radius_m) {
-  const double q = 3.0 * volume_m3 / std::numbers::pi;
-  const double r3 = base_radius_m * base_radius_m * base_radius_m;
-  const double root = std::sqrt(q * q + r3 * r3);
-  return std::cbrt(q + root) - std::cbrt(root - q);
+  return capHeightFrom(0.0, volume_m3, base_radius_m);
 }
 
 // Beads, and drops of no known history, are caps of the mean of both angles (physics.md 3).
@@ -66,6 +76,15 @@ inline double capVolumeAbove(double height_m, double base_radius_m, double above
 // Contact angle of a cap from its height and base: tan(theta / 2) = h / R.
 inline double capAngle(double height_m, double base_radius_m) {
   return 2.0 * std::atan2(height_m, base_radius_m);
+}
+
+// A cap's outline seen from the side: the segment of a circle. Of flat ones, where its formula loses digits,
+// by the first two terms of its series in h / R, right to 2e-4.
+inline double capOutline_m2(double height_m, double base_radius_m) {
+  const double t = height_m / base_radius_m, r2 = base_radius_m * base_radius_m;
+  if (t < 0.3) return r2 * t * (4.0 / 3.0 + 4.0 / 15.0 * t * t);
+  const double sphere = (1.0 + t * t) / (2.0 * t);  // over R
+  return r2 * (2.0 * sphere * sphere * std::atan(t) - (1.0 - t * t) / (2.0 * t));
 }
 
 // The force that holds a drop of base width w (Furmidge; k = 24 / pi^3, ElSherbini & Jacobi 2006).
