@@ -14,6 +14,7 @@
 #include "glass/pane_map.h"
 #include "glass/uneven_glass.h"
 #include "glass/water.h"
+#include "saved/archive.h"
 
 namespace rg::glass {
 
@@ -41,6 +42,25 @@ struct alignas(32) Drop {
   float since_pearl_m = 0.0f;  // way since it last left a droplet behind
   uint32_t seed = 0;
   uint32_t life = 0;  // counts the drops that had this slot
+
+  // Of one that is there, but for where it hangs.
+  static void visit(auto& a, auto& drop) {
+    a.within(drop.place_m, 0.0, 100.0);
+    a.within(drop.base_radius_m, 1e-9, 0.2);
+    a.within(drop.elongation, 1.0, 100.0);
+    a.within(drop.corner, -10.0, 10.0);
+    a(drop.moving, drop.braced, drop.changed);
+    constexpr double kAny = 3.4e38;
+    a.within(drop.acceleration_s2_m, -kAny, kAny);
+    a.within(drop.air2_s2_m2, -kAny, kAny);
+    a.within(drop.braced_share, -kAny, kAny);
+    a.within(drop.heading, -1.1, 1.1);
+    a(drop.texel);
+    a.within(drop.velocity_mps, -1000.0, 1000.0);
+    a.within(drop.height_m, 0.0, 1.0);
+    a.within(drop.since_pearl_m, 0.0, 1e6);
+    a(drop.seed);
+  }
 };
 
 inline float halfLength_m(const Drop& drop) { return drop.base_radius_m * std::sqrt(drop.elongation); }
@@ -98,12 +118,18 @@ class Drops {
 
   uint64_t hash(uint64_t start) const;
 
+  void write(saved::Writer& a) const;
+  int64_t read(saved::Reader& a);  // says how much water that is
+
  private:
   struct Slots {
     std::vector<Drop> items;
     std::vector<int32_t> free;
     size_t capacity_ = 0;
   };
+  std::vector<int32_t> linkOrder() const;
+  void checkRead(const saved::Reader& a, const Slots& slots, const std::vector<int32_t>& order,
+                 const std::vector<int32_t>& changed) const;
   void slide(const DropWorld& world, int slot);
   static bool mayMove(const DropWorld& world, const Drop& drop);
   bool reshape(Drop& drop, glm::dvec2 along, double force_n, double speed_mps, double seconds);
