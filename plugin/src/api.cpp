@@ -220,14 +220,25 @@ rg_result rebaseOrigin(rg_instance* instance, const double shift_m[3]) {
   });
 }
 
-rg_result save(rg_instance* instance, void*, size_t*) {
-  return guarded(instance,
-                 [](Frame&) { refuse("this build does not save its state", RG_ERROR_MISSING_FEATURE); });
+rg_result save(rg_instance* instance, void* buffer, size_t* size) {
+  return guarded(instance, [&](Frame& frame) {
+    checkOut(size, "save's size");
+    const size_t room = *size;
+    const std::vector<unsigned char> bytes = frame.save();
+    *size = bytes.size();
+    if (buffer == nullptr) return;
+    if (room < bytes.size())
+      refuse("save's buffer has room for " + std::to_string(room) + " bytes, the state has " +
+             std::to_string(bytes.size()));
+    std::memcpy(buffer, bytes.data(), bytes.size());
+  });
 }
 
-rg_result restore(rg_instance* instance, const void*, size_t) {
-  return guarded(instance,
-                 [](Frame&) { refuse("this build does not restore a state", RG_ERROR_MISSING_FEATURE); });
+rg_result restore(rg_instance* instance, const void* buffer, size_t size) {
+  return guarded(instance, [&](Frame& frame) {
+    if (buffer == nullptr) refuse("restore's buffer is null");
+    frame.restore({static_cast<const unsigned char*>(buffer), size});
+  });
 }
 
 // ---- questions ----

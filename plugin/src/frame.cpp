@@ -198,6 +198,7 @@ void Frame::wash(const WashOrder& order) {
            std::to_string(glass::kMostWashings) + " jets already");
   WashObject wash;
   wash.pane = order.pane;
+  wash.info = order.jet;
   wash.jet = std::make_shared<const glass::Jet>(order.jet, on.sim->map(), on.sim->name());
   wash.begin_ns = started_ ? std::max(order.time_ns, tickTimeNs(next_tick_ - 1)) : order.time_ns;
   wash.end_ns = wash.begin_ns + std::llround(order.duration_s * 1e9);

@@ -13,6 +13,7 @@
 #include "gl/loader.h"
 #include "gl/timers.h"
 #include "glass/airflow.h"
+#include "glass/film_state.h"
 #include "glass/fog.h"
 #include "glass/look_gl.h"
 #include "glass/pane.h"
@@ -50,7 +51,8 @@ struct PaneObject {
 // A jet at work.
 struct WashObject {
   uint32_t pane = 0;
-  std::shared_ptr<const glass::Jet> jet;
+  glass::JetInfo info;
+  std::shared_ptr<const glass::Jet> jet;  // of that
   int64_t begin_ns = 0, end_ns = 0;
   int64_t volume_pl = 0, given_pl = 0;
 };
@@ -110,6 +112,9 @@ class Frame {
   void seek(int64_t time_ns);
   void prewarm(double seconds);
   void rebase(const glm::dvec3& shift_m);
+  // GL thread where attached. Restoring what is refused changes nothing.
+  std::vector<unsigned char> save();
+  void restore(std::span<const unsigned char> bytes);
 
   // GL thread.
   void attach(const rg_gl_info& info);
@@ -159,6 +164,17 @@ class Frame {
   void publishSplashes();
   void publishWetness();
   void requireMoment(int64_t time_ns) const;
+
+  // Of the panes that have one, by their ids; finished.
+  using FilmStates = std::map<uint32_t, glass::FilmState>;
+  FilmStates filmStates();
+  void setFilms(const FilmStates& films);
+  void writeParts(saved::Writer& body, const FilmStates& films) const;
+  FilmStates readParts(saved::Reader& body);
+  int64_t readClock(saved::Reader& a);
+  void readPillars(saved::Reader& a, int64_t glass_moment);
+  void readWashes(saved::Reader& a);
+  void checkPanes(saved::Reader& a) const;
 
   mutable std::mutex sim_;  // of all below; held by update throughout, by the GL thread for moments
   Timeline timeline_;

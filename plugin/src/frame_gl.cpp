@@ -172,6 +172,22 @@ void Frame::finishGlass() {
   glass::PaneGl::finish(panes);
 }
 
+Frame::FilmStates Frame::filmStates() {
+  FilmStates films;
+  if (!gl_) return films;
+  const gl::StateGuard guarded = gl_->guard(kStepTouches);
+  for (auto& [id, half] : gl_->panes) {
+    if (half.sim->filmAttached()) films.emplace(id, half.gl->filmState());
+  }
+  return films;
+}
+
+void Frame::setFilms(const FilmStates& films) {
+  if (films.empty()) return;
+  const gl::StateGuard guarded = gl_->guard(kStepTouches);
+  for (const auto& [id, film] : films) gl_->panes.at(id).gl->setFilm(film);
+}
+
 void Frame::stepGpu() {
   Gl& gl = attached();
   const gl::StateGuard guarded = gl.guard(kStepTouches);

@@ -223,6 +223,57 @@ void Timeline::pruneKnots(int64_t oldest_ns, Knots& all) {
   }
 }
 
+void Timeline::writeKnots(saved::Writer& a, const Knots& all) {
+  const auto count = static_cast<uint32_t>(all.size());
+  a(count);
+  for (const auto& [id, knots] : all) {
+    a(id);
+    a.list(knots, knots.size());
+  }
+}
+
+Timeline::Knots Timeline::readKnots(saved::Reader& a) {
+  constexpr uint32_t kMostIds = 1u << 20;
+  constexpr size_t kMostKnots = 1u << 26;
+  Knots all;
+  uint32_t count = 0;
+  a.within(count, 0u, kMostIds);
+  for (uint32_t i = 0; i < count; ++i) {
+    uint32_t id = 0;
+    a(id);
+    std::vector<Knot>& knots = all[id];
+    a.list(knots, kMostKnots);
+    a.require(std::ranges::adjacent_find(knots, std::ranges::greater_equal{}, &Knot::time_ns) == knots.end(),
+              "knots do not ascend");
+  }
+  std::erase_if(all, [](const auto& knots) { return knots.second.empty(); });
+  return all;
+}
+
+void Timeline::write(saved::Writer& a) const {
+  a.list(samples_, samples_.size());
+  writeKnots(a, wiper_knots_);
+  writeKnots(a, opening_knots_);
+}
+
+void Timeline::read(saved::Reader& a) {
+  constexpr size_t kMostSamples = 1u << 26;
+  std::vector<Sample> samples;
+  const auto ascends = [](const auto& items, auto key) {
+    return std::ranges::adjacent_find(items, std::ranges::greater_equal{}, key) == items.end();
+  };
+  a.list(samples, kMostSamples);
+  a.require(ascends(samples, &Sample::time_ns), "samples do not ascend");
+  for (const Sample& s : samples)
+    a.require(ascends(s.vehicles, &VehicleState::id) && ascends(s.views, &ViewState::id),
+              "ids do not ascend");
+  Knots wiper_knots = readKnots(a), opening_knots = readKnots(a);
+  if (!a.commits()) return;
+  samples_ = std::move(samples);
+  wiper_knots_ = std::move(wiper_knots);
+  opening_knots_ = std::move(opening_knots);
+}
+
 void Timeline::removeVehicle(uint32_t id) {
   for (Sample& s : samples_) std::erase_if(s.vehicles, [id](const VehicleState& v) { return v.id == id; });
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gusts.h"
+#include "saved/inputs.h"
 #include "tick.h"
 
 namespace rg {
@@ -16,6 +17,10 @@ namespace rg {
 struct Knot {
   int64_t time_ns = 0;
   double value = 0.0;
+  static void visit(auto& a, auto& knot) {
+    a.within(knot.time_ns, -kLatestTime_ns, kLatestTime_ns);
+    a.within(knot.value, -10.0, 10.0);
+  }
 };
 
 // A sample as the plugin keeps it. Vehicles and views are in the order of their ids.
@@ -24,7 +29,15 @@ struct Sample {
   WeatherState weather;
   std::vector<VehicleState> vehicles;
   std::vector<ViewState> views;
-  std::vector<std::pair<uint32_t, Knot>> wiper_knots, opening_knots;
+  std::vector<std::pair<uint32_t, Knot>> wiper_knots, opening_knots;  // the timeline keeps them apart
+
+  static void visit(auto& a, auto& sample) {
+    constexpr size_t kMostBodies = 1u << 20, kMostViews = 64;
+    a.within(sample.time_ns, -kLatestTime_ns, kLatestTime_ns);
+    a(sample.weather);
+    a.list(sample.vehicles, kMostBodies);
+    a.list(sample.views, kMostViews);
+  }
 };
 
 // Inputs between samples are linear (poses: position linear, orientation slerp); beyond the last one bodies
@@ -64,6 +77,10 @@ class Timeline {
   // All positions become p - shift.
   void rebase(const glm::dvec3& shift_m);
 
+  // The samples; what the gusts and the temperature do to them is told anew.
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);
+
  private:
   std::pair<const Sample*, const Sample*> around(int64_t time_ns) const;
 
@@ -73,6 +90,8 @@ class Timeline {
   using Knots = std::map<uint32_t, std::vector<Knot>>;
   static void addKnots(const std::vector<std::pair<uint32_t, Knot>>& added, Knots& to);
   static void pruneKnots(int64_t oldest_ns, Knots& knots);
+  static void writeKnots(saved::Writer& a, const Knots& knots);
+  static Knots readKnots(saved::Reader& a);
 
   Knots wiper_knots_, opening_knots_;
   Tick tick_;

@@ -1,14 +1,10 @@
 // After reset() an instance is as a fresh one: the same samples give the same state and the same pictures.
 #include <gtest/gtest.h>
 
-#include "gl_fixture.h"
-#include "picture.h"
-#include "small_scene.h"
+#include "screen.h"
 
 namespace rg::test {
 namespace {
-
-constexpr int kSize_px = SmallScene::kSize_px;
 
 // What an instance shows of itself at a moment.
 struct Seen {
@@ -16,31 +12,11 @@ struct Seen {
   Picture picture;
 };
 
-class Reset : public GlTest {
+class Reset : public ScreenTest {
  protected:
-  Reset() {
-    gl.CreateRenderbuffers(1, &color);
-    gl.NamedRenderbufferStorage(color, GL_RGBA16F, kSize_px, kSize_px);
-    gl.CreateFramebuffers(1, &framebuffer);
-    gl.NamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
-  }
-  ~Reset() override {
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteRenderbuffers(1, &color);
-  }
-
   Seen look(const SmallScene& scene) const {
-    // A bright sky above dark ground, so that drops, which turn the picture round, are seen.
-    const std::array<float, 4> ground{0.05f, 0.05f, 0.05f, 1.0f}, sky{1.0f, 1.0f, 1.0f, 1.0f};
-    gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, ground.data());
-    gl.Enable(GL_SCISSOR_TEST);
-    gl.Scissor(0, kSize_px / 2, kSize_px, kSize_px / 2);
-    gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, sky.data());
-    gl.Disable(GL_SCISSOR_TEST);
-    scene.expect(scene.draw(scene.api.draw_world, scene.target(framebuffer)));
-    scene.expect(scene.draw(scene.api.draw_glass, scene.target(framebuffer)));
     Seen seen;
-    seen.picture = readFramebuffer(gl, framebuffer, kSize_px, kSize_px);
+    seen.picture = pictureOf(scene);
     scene.expect(scene.api.get_hash(scene.instance, RG_HASH_STATE, &seen.state));
     return seen;
   }
@@ -58,7 +34,6 @@ class Reset : public GlTest {
   }
 
   PluginLibrary plugin;
-  GLuint color = 0, framebuffer = 0;
 };
 
 // Half a second: longer than the film's reports take, so that drops have come of film and film of drops.

@@ -113,6 +113,7 @@ class SmallScene {
     weather.snow_mm_h = snow_mm_h;
     weather.hail_mm_h = hail_mm_h;
     weather.temperature_c = temperature_c;
+    weather.wind_mps[1] = crosswind_mps;
     weather.ground_height_m = 0.0;
     rg_vehicle car;
     api.default_vehicle(&car);
@@ -172,7 +173,7 @@ class SmallScene {
   static constexpr int kSize_px = 64;
   const rg_api& api;
   const Habits habits;
-  double rain_mm_h = 100.0, snow_mm_h = 0.0, hail_mm_h = 0.0, temperature_c = 12.0;
+  double rain_mm_h = 100.0, snow_mm_h = 0.0, hail_mm_h = 0.0, temperature_c = 12.0, crosswind_mps = 0.0;
   rg_instance* instance = nullptr;
   rg_view view{};
   int64_t time_ns = 0;

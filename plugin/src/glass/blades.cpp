@@ -76,6 +76,41 @@ std::vector<MovingBlade> Blades::moving() const {
   return out;
 }
 
+// Told with each blade: what it is, so that a state of other wipers is known as such.
+void Blades::write(saved::Writer& a) const {
+  const auto count = static_cast<uint32_t>(blades_.size());
+  a(count);
+  for (const auto& [id, blade] : blades_) {
+    const uint64_t what = blade.wiper->fingerprint();
+    a(id, what, blade);
+  }
+}
+
+void Blades::read(saved::Reader& a) {
+  uint32_t count = 0;
+  a(count);
+  a.require(count == blades_.size(), "it has other wipers; set them as they were, in the same order");
+  for (auto& [known_id, known] : blades_) {
+    uint32_t id = 0;
+    uint64_t what = 0;
+    Blade blade;
+    a(id, what, blade);
+    if (id != known_id || what != known.wiper->fingerprint())
+      a.refuse("wiper " + std::to_string(known_id) +
+               " is another; set wipers as they were, in the same order");
+    if (!a.commits()) continue;
+    blade.wiper = std::move(known.wiper);
+    known = std::move(blade);
+  }
+}
+
+std::shared_ptr<const std::vector<shared::SweptTexel>> Blades::sweptBy(int first_piece) const {
+  for (const auto& [id, blade] : blades_) {
+    if (blade.wiper->slot() * shared::kBladeSegments == first_piece) return blade.wiper->swept();
+  }
+  return nullptr;
+}
+
 // One way without reversal.
 void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_rad) {
   const Sweep sweep{blade.angle_rad, to_rad};

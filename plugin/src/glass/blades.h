@@ -18,6 +18,10 @@ class Blades {
   void remove(uint32_t id, FilmLink& film);
   void stroke(const DropWorld& world, Drops& drops, const WiperStroke& stroke);
   std::vector<MovingBlade> moving() const;
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);  // of the same wipers
+  // The list of the blade whose ridge begins at that piece; null: there is none.
+  std::shared_ptr<const std::vector<shared::SweptTexel>> sweptBy(int first_piece) const;
   // Ridges are gone with the water: directions are forgotten.
   void clear();
 
@@ -29,6 +33,13 @@ class Blades {
     double speed_radps = 0.0;
     double began_rad = 0.0;      // where that way began,
     double fastest_radps = 0.0;  // and its greatest speed so far
+    static void visit(auto& a, auto& blade) {
+      a.within(blade.angle_rad, -10.0, 10.0);
+      a.within(blade.direction, -1.0, 1.0);
+      a.within(blade.speed_radps, -1e4, 1e4);
+      a.within(blade.began_rad, -10.0, 10.0);
+      a.within(blade.fastest_radps, 0.0, 1e4);
+    }
   };
   static void move(const DropWorld& world, Drops& drops, Blade& blade, double to_rad);
   static void meet(const DropWorld& world, Drops& drops, const Wiper& wiper, const Sweep& sweep, int slot);

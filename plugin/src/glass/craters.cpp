@@ -35,6 +35,27 @@ bool isSeen(const shared::CraterRecord& crater, double age_s) {
 
 }  // namespace
 
+void Craters::Crater::visit(auto& a, auto& crater) {
+  constexpr int64_t kMostTicks = INT64_C(1) << 40;
+  auto& r = crater.record;
+  a.within(crater.tick, -kMostTicks, kMostTicks);
+  a(r.position_m, r.velocity_mps);
+  a.within(r.width_m, 0.0, 1.0), a.within(r.film_m, 0.0, 1.0);
+  a.within(r.filling_hz, 0.0, 1e9), a.within(r.levelling_m4_s, 0.0, 1e9);
+}
+
+void Craters::write(saved::Writer& a) const { a.list(craters_, craters_.size()); }
+
+void Craters::read(saved::Reader& a) {
+  std::vector<Crater> craters;
+  a.list(craters, of_cell_.size());
+  if (!a.commits()) return;
+  clear();
+  craters_ = std::move(craters);
+  for (size_t i = 0; i < craters_.size(); ++i)
+    of_cell_[cellOf(glm::dvec2(craters_[i].record.position_m))] = static_cast<int32_t>(i);
+}
+
 Craters::Craters(const PaneMap& map)
     : map_(map), cell_count_(glm::ceil(glm::dvec2(map.grid().size) * map.grid().texel_m / kCell_m)) {
   clear();

@@ -7,6 +7,7 @@
 #include "glass/airflow.h"
 #include "glass/impact.h"
 #include "glass/pane_map.h"
+#include "saved/archive.h"
 #include "shared/glass_crater.glsl"
 
 namespace rg::glass {
@@ -21,11 +22,14 @@ class Craters {
   // Records as of a tick, of those that are still to be seen; forgets the others.
   std::vector<shared::CraterRecord> at(int64_t tick);
   void clear();
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);
 
  private:
   struct Crater {
     shared::CraterRecord record{};  // its age unset
     int64_t tick = 0;
+    static void visit(auto& a, auto& crater);
   };
   size_t cellOf(glm::dvec2 place_m) const;
 

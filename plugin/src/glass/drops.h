@@ -16,6 +16,7 @@
 #include "glass/slot_set.h"
 #include "glass/uneven_glass.h"
 #include "glass/water.h"
+#include "saved/archive.h"
 
 namespace rg::glass {
 
@@ -46,6 +47,22 @@ struct alignas(32) Drop {
   float since_pearl_m = 0.0f;    // way since it last left a droplet behind
   uint32_t seed = 0;
   uint32_t life = 0;  // counts the drops that had this slot
+
+  // Of one that is there, but for where it hangs.
+  static void visit(auto& a, auto& drop) {
+    a.within(drop.place_m, 0.0, 100.0);
+    a.within(drop.base_radius_m, 1e-9, 0.2);
+    a.within(drop.elongation, 1.0, 100.0);
+    a.within(drop.corner, -10.0, 10.0);
+    a.within(drop.braced_pl, 0.0, 3.4e38);
+    a(drop.changed);
+    a.within(drop.heading, -1.1, 1.1);
+    a(drop.texel);
+    a.within(drop.velocity_mps, -1000.0, 1000.0);
+    a.within(drop.height_m, 0.0, 1.0);
+    a.within(drop.since_pearl_m, 0.0, 1e6);
+    a(drop.seed);
+  }
 };
 
 inline float halfLength_m(const Drop& drop) { return drop.base_radius_m * std::sqrt(drop.elongation); }
@@ -110,6 +127,9 @@ class Drops {
 
   uint64_t hash(uint64_t start) const;
 
+  void write(saved::Writer& a) const;
+  int64_t read(saved::Reader& a);  // says how much water that is
+
  private:
   struct Slots {
     std::vector<Drop> items;
@@ -128,8 +148,27 @@ class Drops {
     float air2_s2_m2 = 0.0f;         // ... and air of 1 m/s, with its square
     glm::vec2 share{0.0f};           // ... and the forces about it, of when it came to rest
     int32_t tile = 0;
+
+    static void visit(auto& a, auto& hold) {
+      constexpr double kAny = 3.4e38;
+      a.within(hold.acceleration_s2_m, -kAny, kAny);
+      a.within(hold.air2_s2_m2, -kAny, kAny);
+      a.within(hold.share, -kAny, kAny);
+    }
+  };
+  // As a saved state has a slot.
+  struct Slot {
+    Drop drop;
+    Hold hold;            // of a braced one
+    float half_m = 0.0f;  // as nears_ has it
+
+    static void visit(auto& a, auto& slot);
   };
   void become(int slot, Pose pose);
+  std::vector<int32_t> linkOrder() const;
+  void checkRead(const saved::Reader& a, const std::vector<Slot>& slots, const std::vector<int32_t>& order,
+                 const std::vector<int32_t>& free, const std::vector<int32_t>& changed) const;
+  void hangIn(const std::vector<Slot>& slots, const std::vector<int32_t>& order);
   void slide(const DropWorld& world, int slot);
   void brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double hold_n);
   bool mayMove(const DropWorld& world, int slot) const;

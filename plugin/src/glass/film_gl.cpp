@@ -350,6 +350,63 @@ std::vector<int32_t> FilmGl::readRidges() const {
   return out;
 }
 
+FilmState FilmGl::state() const {
+  FilmState out{readFilm(), readBeads(), readRidges(), std::vector<uint8_t>(tiles_)};
+  std::vector<uint32_t> states(tiles_ * kTileFields);
+  states_.read(0, states.data(), states.size() * sizeof(uint32_t));
+  for (size_t i = 0; i < tiles_; ++i) {
+    const uint32_t stirs = states[i * kTileFields], awake = states[i * kTileFields + 1];
+    out.tiles[i] =
+        static_cast<uint8_t>((stirs != 0 ? FilmState::kStirs : 0) | (awake != 0 ? FilmState::kAwake : 0));
+  }
+  return out;
+}
+
+// Of tiles that are asleep both buffers hold the same film; of the others the next step writes the other one
+// wholly. The counters of what was wiped off begin anew: reports tell how far they went on.
+void FilmGl::set(const FilmState& state) {
+  const std::vector<int32_t> film = inTiles<int32_t>(state.film_pl, -1);
+  for (gl::Buffer& buffer : film_) buffer.write(0, std::span<const int32_t>(film));
+  beads_.write(0, std::span<const uint32_t>(inTiles<uint32_t>(state.beads, 0)));
+  ridges_.zero();
+  ridges_.write(0, std::span<const int32_t>(state.ridge_pl));
+  states_.write(0, std::span<const uint32_t>(tileStates(state)));
+  awake_.write(0, std::span<const uint32_t>(kNoneAwake));
+  wiped_before_ = {};
+  watered_step_ = -1;
+  ridged_ = state.ridgesSum_pl() > 0;
+  dry_ = !ridged_ && state.filmSum_pl() == 0 && state.beadsSum_pl() == 0;
+  picture_is_old_ = beads_picture_is_old_ = true;
+}
+
+template <typename T>
+std::vector<T> FilmGl::inTiles(const std::vector<T>& texels, T off) const {
+  std::vector<T> all(tiles_ * kTileTexels, off);
+  for (int i = 0; i < map_.texelCount(); ++i) all[place(i)] = texels[static_cast<size_t>(i)];
+  return all;
+}
+
+// As the step that came before left them: of its report only what lies there is asked for again.
+std::vector<uint32_t> FilmGl::tileStates(const FilmState& state) const {
+  constexpr size_t kFilmLow = 3 + 2, kFilmHigh = 3 + 3, kBeads = 3 + 7;  // of TileState, in its last report
+  std::vector<uint32_t> states(tiles_ * kTileFields, 0);
+  const glm::ivec2 size = map_.grid().size;
+  for (int i = 0; i < map_.texelCount(); ++i) {
+    const int tile = i / size.x / shared::kTileSize * map_.tileCount().x + i % size.x / shared::kTileSize;
+    uint32_t* of_tile = &states[static_cast<size_t>(tile) * kTileFields];
+    const auto k = static_cast<size_t>(i);
+    const auto film_pl = static_cast<uint32_t>(std::max(state.film_pl[k], 0));
+    of_tile[kFilmLow] += film_pl & 0xffff;
+    of_tile[kFilmHigh] += film_pl >> 16;
+    of_tile[kBeads] += state.beads[k] & 0xffffffu;
+  }
+  for (size_t t = 0; t < tiles_; ++t) {
+    states[t * kTileFields] = (state.tiles[t] & FilmState::kStirs) != 0 ? 1 : 0;
+    states[t * kTileFields + 1] = (state.tiles[t] & FilmState::kAwake) != 0 ? 1 : 0;
+  }
+  return states;
+}
+
 void FilmGl::abandon() {
   for (gl::Buffer& film : film_) film.forget();
   for (gl::BufferTexture& strips : film_strips_) strips.forget();

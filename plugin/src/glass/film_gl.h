@@ -12,6 +12,7 @@
 #include "gl/program.h"
 #include "glass/film_layout.h"
 #include "glass/film_order.h"
+#include "glass/film_state.h"
 #include "glass/pane_gl.h"
 #include "glass/pane_map.h"
 #include "glass/uneven_glass.h"
@@ -50,6 +51,9 @@ class FilmGl {
   std::vector<int32_t> readFilm() const;
   std::vector<uint32_t> readBeads() const;
   std::vector<int32_t> readRidges() const;
+  // With nothing pending. Going on from a state that was set is as going on from it where it was asked for.
+  FilmState state() const;
+  void set(const FilmState& state);
   void abandon();
 
  private:
@@ -115,6 +119,9 @@ class FilmGl {
   void show(const gl::Buffer& texels, GLenum type, gl::Texture2D& picture);
   template <typename T>
   std::vector<T> readTexels(const gl::Buffer& texels) const;
+  template <typename T>
+  std::vector<T> inTiles(const std::vector<T>& texels, T off) const;
+  std::vector<uint32_t> tileStates(const FilmState& state) const;
   std::unique_ptr<Batch> freeBatch(size_t upload_bytes, size_t report_bytes);
   FilmReport read(const Batch& batch, size_t index);
   GLuint sweptBuffer(const SweepOrder& order);

@@ -11,8 +11,9 @@
 
 namespace rg::glass {
 
-inline constexpr size_t kAlign = 256;  // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-inline constexpr size_t kTileStateBytes = 12 * sizeof(int32_t);  // TileState in film_buffers.glsl
+inline constexpr size_t kAlign = 256;      // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
+inline constexpr size_t kTileFields = 12;  // TileState in film_buffers.glsl
+inline constexpr size_t kTileStateBytes = kTileFields * sizeof(int32_t);
 inline constexpr std::array<uint32_t, 16> kNoneAwake{
     0, 1, 1, 0, 0, 1, 1, 0,
     0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles in film_lists.glsl, of both turns, and those that dry

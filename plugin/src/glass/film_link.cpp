@@ -22,8 +22,8 @@ int64_t travellingIn(const FilmReport& report) {
 }  // namespace
 
 FilmLink::FilmLink(const PaneMap& map, Ledger& ledger)
-    : map_(map),
-      ledger_(ledger),
+    : map_(&map),
+      ledger_(&ledger),
       sums_(static_cast<size_t>(map.texelCount()), 0),
       bead_of_(static_cast<size_t>(map.texelCount()), -1),
       taken_in_(static_cast<size_t>(map.texelCount()), -1),
@@ -39,7 +39,7 @@ void FilmLink::attach() {
 void FilmLink::detach() {
   if (!attached_) return;
   attached_ = false;
-  ledger_.drained_pl += film_pl_ + beads_pl_ + ridge_pl_ + travelling_pl();
+  ledger_->drained_pl += film_pl_ + beads_pl_ + ridge_pl_ + travelling_pl();
   clear();
   first_step_ = next_step_;
 }
@@ -69,8 +69,8 @@ void FilmLink::clear() {
 
 void FilmLink::add(int texel, int64_t volume_pl) {
   if (volume_pl <= 0) return;
-  if (!attached_ || !map_.shown(texel)) {
-    ledger_.drained_pl += volume_pl;
+  if (!attached_ || !map_->shown(texel)) {
+    ledger_->drained_pl += volume_pl;
     return;
   }
   volume_pl = passed(LeakyKernel::exchange, volume_pl);
@@ -79,13 +79,13 @@ void FilmLink::add(int texel, int64_t volume_pl) {
   const int64_t fits = std::min(volume_pl, kMostToTexel_pl - sum);
   sum += static_cast<int32_t>(fits);
   gathered_pl_ += fits;
-  ledger_.drained_pl += volume_pl - fits;  // a flood that no film holds
+  ledger_->drained_pl += volume_pl - fits;  // a flood that no film holds
 }
 
 void FilmLink::addBeads(int texel, int64_t volume_pl, int number) {
   if (volume_pl <= 0) return;
-  if (!attached_ || !map_.shown(texel)) {
-    ledger_.drained_pl += volume_pl;
+  if (!attached_ || !map_->shown(texel)) {
+    ledger_->drained_pl += volume_pl;
     return;
   }
   volume_pl = passed(LeakyKernel::exchange, volume_pl);
@@ -99,11 +99,11 @@ void FilmLink::addBeads(int texel, int64_t volume_pl, int number) {
   sum.volume_pl += static_cast<int32_t>(fits);
   sum.number = std::min(sum.number + number, shared::kMostBeads);
   gathered_pl_ += fits;
-  ledger_.drained_pl += volume_pl - fits;
+  ledger_->drained_pl += volume_pl - fits;
 }
 
 Footprint FilmLink::within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m) const {
-  const double texel_m = map_.grid().texel_m;
+  const double texel_m = map_->grid().texel_m;
   const glm::ivec2 reach(
       glm::min(glm::ceil(radius_m / (metres * texel_m)), glm::dvec2(Footprint::kFarthest)));
   const glm::ivec2 middle(grid_m / texel_m);
@@ -113,7 +113,7 @@ Footprint FilmLink::within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m
       const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) * texel_m;
       const glm::dvec2 way_m = (place - grid_m) * metres;
       if (glm::dot(way_m, way_m) > radius_m * radius_m) continue;
-      const int texel = map_.texelAt(glm::ivec2(x, y));
+      const int texel = map_->texelAt(glm::ivec2(x, y));
       if (texel >= 0) out.texels[out.count++] = texel;
     }
   }
@@ -123,11 +123,11 @@ Footprint FilmLink::within(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m
 void FilmLink::spread(glm::dvec2 grid_m, glm::dvec2 metres, double radius_m, int64_t volume_pl) {
   const Footprint to = within(grid_m, metres, radius_m);
   if (to.count == 0) {
-    const int texel = map_.texelAt(grid_m);
+    const int texel = map_->texelAt(grid_m);
     if (texel >= 0)
       add(texel, volume_pl);
     else
-      ledger_.drained_pl += volume_pl;
+      ledger_->drained_pl += volume_pl;
     return;
   }
   for (size_t i = 0; i < to.count; ++i) add(to.texels[i], to.share(i, volume_pl));
@@ -143,13 +143,13 @@ void FilmLink::take(int texel, double share, uint32_t slot, uint32_t life) {
 
 void FilmLink::addToRidge(int segment, int64_t volume_pl) {
   if (!attached_) {
-    ledger_.wiped_pl += volume_pl;
+    ledger_->wiped_pl += volume_pl;
     return;
   }
   const int64_t fits = std::min(volume_pl, kMostToRidge_pl);
   order_.ridge_adds.push_back({segment, static_cast<int>(fits)});
   gathered_pl_ += fits;
-  ledger_.wiped_pl += volume_pl - fits;  // a blade throws off what it cannot hold
+  ledger_->wiped_pl += volume_pl - fits;  // a blade throws off what it cannot hold
 }
 
 void FilmLink::sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept,
@@ -200,11 +200,11 @@ void FilmLink::deliver(FilmReport&& report) {
   for (const shared::FilmTile& tile : report.tiles) {
     beads_pl_ += tile.beads_pl;
     film_pl_ += static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
-    ledger_.drained_pl += tile.drained_pl;
-    ledger_.blown_pl += tile.blown_pl;
-    ledger_.evaporated_pl += tile.evaporated_pl;
+    ledger_->drained_pl += tile.drained_pl;
+    ledger_->blown_pl += tile.blown_pl;
+    ledger_->evaporated_pl += tile.evaporated_pl;
   }
-  ledger_.wiped_pl += report.wiped_pl;
+  ledger_->wiped_pl += report.wiped_pl;
   ridge_pl_ = report.ridge_pl;
   reports_.push_back(std::move(report));
 }
@@ -219,7 +219,7 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
     const shared::FilmTile& tile = report.tiles[i];
     const int64_t volume_pl =
         static_cast<int64_t>(tile.film_low_pl) + (static_cast<int64_t>(tile.film_high) << 16);
-    const float area_m2 = map_.tileArea_m2()[i];
+    const float area_m2 = map_->tileArea_m2()[i];
     tile_watered_[i] = volume_pl > 0 || tile.beads_pl > 0;
     tile_thickness_m_[i] = area_m2 > 0.0f ? static_cast<float>(cubicMetres(volume_pl)) / area_m2 : 0.0f;
   }
@@ -227,10 +227,10 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
 }
 
 double FilmLink::thickness_m(int texel) const {
-  return static_cast<double>(tile_thickness_m_[map_.tileOf(texel)]);
+  return static_cast<double>(tile_thickness_m_[map_->tileOf(texel)]);
 }
 
-bool FilmLink::watered(int texel) const { return tile_watered_[map_.tileOf(texel)]; }
+bool FilmLink::watered(int texel) const { return tile_watered_[map_->tileOf(texel)]; }
 
 int64_t FilmLink::travelling_pl() const {
   int64_t sum = gathered_pl_;

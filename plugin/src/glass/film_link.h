@@ -6,11 +6,13 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "glass/film_order.h"
 #include "glass/ledger.h"
 #include "glass/pane_map.h"
+#include "saved/archive.h"
 
 namespace rg::glass {
 
@@ -19,6 +21,7 @@ struct Taker {
   uint32_t slot = 0;
   uint32_t life = 0;  // of the slot, see Drop
   int texel = 0;
+  static void visit(auto& a, auto& taker) { a(taker.slot, taker.life, taker.texel); }
 };
 
 inline constexpr uint32_t kSeal = UINT32_MAX;  // a taker's slot that is no drop's: the seal of a sill
@@ -85,13 +88,21 @@ class FilmLink {
   int64_t travelling_pl() const;
   void clear();  // dry, before the next step
 
+  // The list that a blade sweeps by the first piece of its ridge; null where there is none.
+  using SweptBy = std::function<std::shared_ptr<const std::vector<shared::SweptTexel>>(int)>;
+  // Whether it can be written: nothing is under way to the GPU, and no blade swept that is no more.
+  bool settled(const SweptBy& swept_by) const;
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a, const SweptBy& swept_by);  // by one that is not attached
+  const std::vector<SlidTexel>& slidInThisStep() const { return order_.slid; }
+
  private:
   struct Ordered {
     int64_t step, ordered_pl;
     std::vector<Taker> takers;
   };
-  const PaneMap& map_;
-  Ledger& ledger_;
+  const PaneMap* map_;
+  Ledger* ledger_;
   bool attached_ = false;
   int64_t first_step_ = 0, last_reported_ = -1, next_step_ = 0;
   FilmOrder order_;
@@ -108,6 +119,10 @@ class FilmLink {
   std::deque<std::vector<Taker>> report_takers_;
   std::vector<float> tile_thickness_m_;
   std::vector<bool> tile_watered_;
+  void checkOrder(const saved::Reader& a) const;
+  void findGathered();
+  void writeReports(saved::Writer& a) const;
+  void readReports(saved::Reader& a);
   int64_t film_pl_ = 0, beads_pl_ = 0, ridge_pl_ = 0;
 };
 

@@ -128,6 +128,36 @@ void Fog::stepCell(Cell& cell, const FogAir& air, double seconds) {
   cell.glass_c += heat_W_m2 * seconds / kGlassHeat_J_m2K;
 }
 
+void Fog::visit(auto& a, auto& cells, auto& stats, auto& begun) {
+  constexpr int64_t kMost_pl = INT64_C(1) << 60;
+  a(begun);
+  a.within(stats.condensed_pl, 0, kMost_pl), a.within(stats.on_glass_pl, 0, kMost_pl);
+  a.within(stats.evaporated_pl, 0, kMost_pl), a.within(stats.drained_pl, 0, kMost_pl);
+  for (auto& cell : cells) {
+    a.within(cell.glass_c, -200.0, 200.0);
+    a.within(cell.water_pl, 0, kMost_pl >> 10);
+    a.within(cell.rest_pl, -1.0, 1.0);
+  }
+}
+
+void Fog::write(saved::Writer& a) const { visit(a, cells_, stats_, begun_); }
+
+void Fog::read(saved::Reader& a) {
+  std::vector<Cell> cells = cells_;
+  FogStats stats;
+  bool begun = false;
+  visit(a, cells, stats, begun);
+  int64_t sum_pl = 0;
+  for (const Cell& cell : cells) sum_pl += cell.water_pl;
+  a.require(stats.on_glass_pl == sum_pl &&
+                stats.condensed_pl == stats.on_glass_pl + stats.evaporated_pl + stats.drained_pl,
+            "the fog's ledger does not close");
+  if (!a.commits()) return;
+  cells_ = std::move(cells);
+  stats_ = stats;
+  begun_ = begun;
+}
+
 double Fog::massAt_kg_m2(glm::ivec2 cell) const {
   const Cell& glass = cells_[cells_[index(cell)].nearest];
   return static_cast<double>(glass.water_pl) * kPicolitre_kg / glass.area_m2;

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "saved/archive.h"
+
 namespace rg::glass {
 
 class PaneMap;
@@ -39,6 +41,8 @@ class Fog {
 
   bool empty() const { return stats_.on_glass_pl == 0; }
   FogStats stats() const { return stats_; }
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);
   // Water by area, in the order of rows of the grid; cells without glass as their nearest ones.
   double massAt_kg_m2(glm::ivec2 cell) const;
   double glassAt_c(glm::ivec2 cell) const { return cells_[index(cell)].glass_c; }
@@ -57,6 +61,7 @@ class Fog {
     double rest_pl = 0.0;  // of a picolitre, not yet condensed or evaporated
     size_t nearest = 0;    // cell with glass
   };
+  static void visit(auto& a, auto& cells, auto& stats, auto& begun);
   static size_t index(glm::ivec2 cell) { return static_cast<size_t>(cell.y * kCells.x + cell.x); }
   void stepCell(Cell& cell, const FogAir& air, double seconds);
 

@@ -9,12 +9,18 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "shared/glass_crater.glsl"
 #include "shared/glass_types.glsl"
+
+namespace rg::saved {
+class Reader;
+class Writer;
+}  // namespace rg::saved
 
 namespace rg::glass {
 
@@ -26,6 +32,7 @@ class Slide;
 class Drops;
 struct FilmOrder;
 struct FilmReport;
+struct FilmState;
 
 // What a surface does to water: contact angles and how it treats thin films.
 enum class Glass { uncoated, dirty, coated, new_coating };
@@ -194,6 +201,12 @@ class PaneSim {
 
   // Back to a dry pane; the ledger starts anew. PaneGl clears its film when it is next called.
   void reset();
+
+  // As it is between two ticks, PaneGl::finish() done. `film`: of a pane whose film is attached.
+  void write(saved::Writer& a, const FilmState* film) const;
+  // By a pane of the same glass and wipers. What is its film's is told, for PaneGl::setFilm.
+  std::optional<FilmState> read(saved::Reader& a);
+  bool filmAttached() const;
 
   std::shared_ptr<const PaneSnapshot> snapshot() const;
   // Exact after PaneGl::finish(); before it the film's share is as of its last report.

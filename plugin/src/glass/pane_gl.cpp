@@ -232,6 +232,13 @@ std::vector<uint32_t> PaneGl::readBeads() {
   return parts_->film.readBeads();
 }
 
+FilmState PaneGl::filmState() {
+  finish();
+  return parts_->film.state();
+}
+
+void PaneGl::setFilm(const FilmState& state) { parts_->film.set(state); }
+
 uint64_t PaneGl::hash() {
   finish();
   uint64_t h = 0xcbf29ce484222325ull;

@@ -15,6 +15,8 @@ struct GladGLContext;
 
 namespace rg::glass {
 
+struct FilmState;
+
 // GL programs that all panes of a context share. A leaky kernel loses 1 % of what passes through it: the
 // ledger's tests must see that.
 enum class FilmKernel { none, take, add, ridge, sweep, leave, step, bead_add, bead };
@@ -79,6 +81,9 @@ class PaneGl {
   std::vector<int32_t> readFilm();
   // Beads likewise, packed as in shared/glass_beads.glsl.
   std::vector<uint32_t> readBeads();
+  // All of what the film is; finishes. And its film made another one, what is under way having been finished.
+  FilmState filmState();
+  void setFilm(const FilmState& state);
   // Of film, beads and ridges, for the state's hash; finishes.
   uint64_t hash();
 

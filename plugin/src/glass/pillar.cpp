@@ -5,7 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "glass/saved_limits.h"
 #include "shared/hash.glsl"
+#include "tick.h"
 
 namespace rg::glass {
 namespace {
@@ -13,6 +15,10 @@ namespace {
 // A way over a pillar begins along the one pane and ends along the other: the cosine of its mean way to
 // the line between both is no less, and both edges run side by side, to within the angle of this cosine.
 constexpr double kLooksAt = 0.5, kSideBySide = 0.7;
+
+// A pane that has not been ticked for so long is inactive, for others wait no longer for their films: what
+// comes to it runs past.
+constexpr int64_t kLongestAway_ticks = 10 * kTickHz;
 
 // A texel beside which there is no glass.
 struct Edge {
@@ -92,7 +98,8 @@ std::optional<int> seenFrom(const Edge& edge, const std::vector<Edge>& others) {
 
 }  // namespace
 
-Pillar::Pillar(const PaneMap& from, const PaneMap& to) : crossings_(from.tileArea_m2().size()) {
+Pillar::Pillar(const PaneMap& from, const PaneMap& to)
+    : crossings_(from.tileArea_m2().size()), texels_there_(to.texelCount()) {
   if (glm::distance(from.centre_m(), to.centre_m()) >
       from.radius_m() + to.radius_m() + static_cast<float>(kWidestPillar_m))
     return;
@@ -125,6 +132,8 @@ void Pillar::give(int64_t moment, size_t tile, int64_t volume_pl, double share) 
   crossing.gathered_pl +=
       static_cast<int64_t>(static_cast<double>(volume_pl) * share * static_cast<double>(crossing.share));
   if (crossing.gathered_pl < kTrickle_pl) return;
+  while (!under_way_.empty() && under_way_.front().moment < moment - kLongestAway_ticks)
+    under_way_.pop_front();
   under_way_.push_back({moment, {crossing.texel, std::exchange(crossing.gathered_pl, 0)}});
 }
 
@@ -152,6 +161,35 @@ void Pillar::clear() {
   const std::lock_guard lock(mutex_);
   under_way_.clear();
   for (Crossing& crossing : crossings_) crossing.gathered_pl = 0;
+}
+
+void Pillar::write(saved::Writer& a) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<int64_t> gathered_pl;
+  for (const Crossing& crossing : crossings_) gathered_pl.push_back(crossing.gathered_pl);
+  a.list(gathered_pl, gathered_pl.size());
+  a.list(under_way_, under_way_.size(),
+         [&a](const UnderWay& water) { a(water.moment, water.trickle.texel, water.trickle.volume_pl); });
+}
+
+void Pillar::read(saved::Reader& a, int64_t now) {
+  constexpr size_t kMostUnderWay = size_t{1} << 24;
+  std::vector<int64_t> gathered_pl;
+  std::deque<UnderWay> under_way;
+  a.list(gathered_pl, crossings_.size(),
+         [&a](int64_t& volume_pl) { a.within(volume_pl, int64_t{0}, kTrickle_pl); });
+  a.require(gathered_pl.size() == crossings_.size(), "another number of tiles is beside it");
+  int64_t last = 0;
+  a.list(under_way, kMostUnderWay, [&](UnderWay& water) {
+    a.within(water.moment, last, now);
+    a.within(water.trickle.texel, 0, texels_there_ - 1);
+    a.within(water.trickle.volume_pl, int64_t{1}, kMostSaved_pl);
+    last = water.moment;
+  });
+  if (!a.commits()) return;
+  const std::lock_guard lock(mutex_);
+  for (size_t tile = 0; tile < crossings_.size(); ++tile) crossings_[tile].gathered_pl = gathered_pl[tile];
+  under_way_ = std::move(under_way);
 }
 
 }  // namespace rg::glass

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "glass/pane_map.h"
+#include "saved/archive.h"
 
 namespace rg::glass {
 
@@ -49,6 +50,10 @@ class Pillar {
 
   void clear();
 
+  // What is on its way, as part of a saved state; `now`: the latest moment there was.
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a, int64_t now);
+
  private:
   struct Crossing {
     float share = 0.0f;  // of a tile's edge that looks at the other pane
@@ -60,6 +65,7 @@ class Pillar {
     Trickle trickle;
   };
   std::vector<Crossing> crossings_;  // of each tile
+  int texels_there_ = 0;             // of the other pane's grid
   bool joins_ = false;
   mutable std::mutex mutex_;
   std::deque<UnderWay> under_way_;

@@ -83,6 +83,11 @@ int Slide::texel(const PaneMap& map, size_t i) {
   return order_[i];
 }
 
+size_t Slide::texels(const PaneMap& map) {
+  if (order_.empty()) sort(map);
+  return order_.size();
+}
+
 size_t Slide::goneAt(const PaneMap& map, double opening_m) {
   if (!hides(opening_m)) return 0;
   if (order_.empty()) sort(map);

@@ -25,6 +25,7 @@ class Slide {
 
   // Texels in the order in which they go behind the sill, and how many of them have at an opening.
   int texel(const PaneMap& map, size_t i);
+  size_t texels(const PaneMap& map);  // how many there are
   size_t goneAt(const PaneMap& map, double opening_m);
 
  private:

@@ -7,6 +7,7 @@
 
 #include "glass/water.h"
 #include "glass/wear.h"
+#include "saved/archive.h"
 
 namespace rg::glass {
 namespace {
@@ -163,6 +164,13 @@ std::vector<double> Wiper::anglesOf(const glm::dvec2& place_m) const {
   }
   std::sort(out.begin(), out.end());
   return out;
+}
+
+uint64_t Wiper::fingerprint() const {
+  saved::Writer a;
+  a(info_.pivot_m, info_.axis, info_.rest_direction, info_.arm_m, info_.blade_m, info_.blade_angle_rad,
+    info_.residual_film_m, info_.blade_turn, info_.wear, info_.lift_m, slot_);
+  return saved::fingerprintOf(a.bytes);
 }
 
 Crossings Wiper::crossingsAt(const glm::dvec3& vehicle_m, double beyond_end_m) const {

@@ -55,6 +55,7 @@ class Wiper {
 
   const WiperInfo& info() const { return info_; }
   int slot() const { return slot_; }
+  uint64_t fingerprint() const;  // of what it is, and of its slot
   Crossings crossingsAt(const glm::dvec3& vehicle_m, double beyond_end_m = 0.0) const;
   BladePose poseAt(double angle_rad) const { return bladePose(info_, angle_rad); }
 

@@ -28,6 +28,10 @@ struct BeyondPicture {
   struct View {
     uint32_t id = 0;
     double streamed_m = 0.0;  // way of the rain past the eye, in streaks as long as at kPlainStreak_m
+    static void visit(auto& a, auto& view) {
+      a(view.id);
+      a.within(view.streamed_m, 0.0, 1e12);
+    }
   };
   int64_t time_ns = 0;
   double rate_mm_h = 0.0;
@@ -47,6 +51,14 @@ class Beyond {
   void describe(double reach_per_diameter, BeyondPicture& picture) const;
   // The views of the last tick.
   const std::vector<Cone>& cones() const { return cones_; }
+
+  static void visit(auto& a, auto& beyond) {
+    constexpr size_t kMostViews = 64;
+    a.within(beyond.time_ns_, -kLatestTime_ns, kLatestTime_ns);
+    a(beyond.rate_mm_h_, beyond.drop_velocity_mps_);
+    a.list(beyond.views_, kMostViews);
+    a.list(beyond.cones_, kMostViews);
+  }
 
  private:
   int64_t time_ns_ = 0;

@@ -187,6 +187,31 @@ void Border::leave(uint32_t kind, int32_t y, int32_t z, int32_t first, int32_t l
   for (int32_t x = first; x < last; ++x) released_.push_back({x, y, z, kind});
 }
 
+void Border::write(saved::Writer& a) const {
+  a(level_);
+  const auto count = static_cast<uint32_t>(views_.size());
+  a(count);
+  for (const auto& view : views_) a(*view);
+}
+
+void Border::read(saved::Reader& a) {
+  constexpr uint32_t kMostViews = 64, kMostLevel = 8;
+  constexpr size_t kMostCells = size_t{1} << 22;
+  uint32_t count = 0;
+  a.within(level_, 0u, kMostLevel);
+  a.within(count, 0u, kMostViews);
+  for (uint32_t i = 0; i < count; ++i) {
+    views_.push_back(std::make_unique<FollowedView>());
+    FollowedView& view = *views_.back();
+    a(view);
+    for (uint32_t kind = 0; kind < kClasses; ++kind) {
+      if (view.known[kind].found) replaceRows(RowSet{}, view.rows[kind][view.known[kind].current], kind);
+    }
+    a.require(cells_.live() <= kMostCells, "more cells than any view looks into");
+  }
+  entered_.clear();
+}
+
 // After all views have entered theirs: a cell that goes from one view to another stays.
 void Border::releaseCells() {
   left_.clear();

@@ -35,6 +35,22 @@ struct FollowedView {
   };
   std::array<Known, kClasses> known;
   std::array<std::array<RowSet, 2>, kClasses> rows;
+
+  static void visit(auto& a, auto& view) {
+    a(view.id, view.moved);
+    a.within(view.eye_m, -kAnyNumber, kAnyNumber);
+    visitUnit(a, view.worldFromEye);
+    a(view.streak_m);
+    for (uint32_t kind = 0; kind < kClasses; ++kind) {
+      auto& known = view.known[kind];
+      a(known.found);
+      if (!known.found) continue;
+      a(known.region);
+      a.within(known.eye_m, -kAnyNumber, kAnyNumber);
+      a.within(known.until, -kLatestTick, kLatestTick);
+      a(view.rows[kind][known.current]);
+    }
+  }
 };
 
 // What a tick's views look for.
@@ -68,6 +84,10 @@ class Border {
 
   std::span<const std::unique_ptr<FollowedView>> views() const { return views_; }
   void shift(const glm::dvec3& shift_m);
+
+  // Between ticks. Read by one that has looked nowhere yet; its cells are found by what was looked into.
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);
 
  private:
   // How a view moves in a tick.

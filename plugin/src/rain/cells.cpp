@@ -69,6 +69,8 @@ uint32_t Cells::release(const CellKey& key) {
   return index;
 }
 
+uint32_t Cells::indexOf(const CellKey& key) const { return table_[find(key, hashOf(key))].index; }
+
 // Later entries of the same run move up, so that no search ends early (Knuth, The Art of Computer
 // Programming 3, 6.4 algorithm R).
 void Cells::takeOut(uint32_t hole) {

@@ -12,6 +12,7 @@ struct CellKey {
   int32_t x = 0, y = 0, z = 0;
   uint32_t kind = 0;  // speed class
   bool operator==(const CellKey&) const = default;
+  static void visit(auto& a, auto& key) { a(key.x, key.y, key.z, key.kind); }
 };
 
 struct Cell {
@@ -33,6 +34,7 @@ class Cells {
   uint32_t release(const CellKey& key);
   void free(uint32_t index);
   void clear();
+  uint32_t indexOf(const CellKey& key) const;  // kNone: nobody looks into it
 
   Cell& operator[](uint32_t index) { return pool_[index]; }
   const Cell& operator[](uint32_t index) const { return pool_[index]; }

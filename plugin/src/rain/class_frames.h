@@ -37,6 +37,12 @@ class ClassFrames {
   // frames go on.
   const ClassPath& path(uint32_t kind);
 
+  template <class Archive>
+  static void visit(Archive& a, auto& frames) {
+    a(frames.wind_, frames.profile_, frames.time_s_, frames.origin_m_, frames.moved_m_);
+    if constexpr (Archive::kReads) frames.moveClasses();
+  }
+
  private:
   void findPath(uint32_t kind, ClassPath& path) const;
   void moveClasses();

@@ -5,6 +5,8 @@
 
 namespace rg::rain {
 
+using shared::RainDrop;
+
 SlotPool::SlotPool(uint32_t capacity) : capacity_(capacity) {
   size_t words = capacity;
   for (auto& level : free_) {
@@ -39,6 +41,11 @@ void SlotPool::takeOf(size_t at, uint64_t bits) {
   free_[0][at] &= ~bits;
   for (int level = 1; level < kLevels && free_[level - 1][at] == 0; ++level, at /= 64)
     free_[level][at / 64] &= ~(uint64_t{1} << (at % 64));
+}
+
+void SlotPool::takeThis(uint32_t slot) {
+  takeOf(slot / 64, uint64_t{1} << (slot % 64));
+  ++used_;
 }
 
 void SlotPool::give(size_t at, uint64_t bits, uint32_t count) {
@@ -121,6 +128,58 @@ void Drops::removeAll(uint32_t& first, uint32_t kind) {
       touch(at, bits);
     }
     live_of_[kind] -= bunch.count;
+  }
+}
+
+namespace {
+void visitRecord(auto& a, auto& drop) {
+  a(drop.cell_x, drop.cell_y, drop.cell_z, drop.fraction_xy, drop.fraction_z_class, drop.end);
+  a.within(drop.diameter_m, 0.0, 0.2);
+  a(drop.id);
+}
+}  // namespace
+
+void Drops::write(saved::Writer& a, uint32_t bunch) const {
+  uint32_t count = 0;
+  for (uint32_t b = bunch; b != kNone; b = bunches_[b].next) count += bunches_[b].count;
+  a(count);
+  for (; bunch != kNone; bunch = bunches_[bunch].next) {
+    for (uint32_t i = 0; i < bunches_[bunch].count; ++i) {
+      const uint32_t slot = bunches_[bunch].slots[i];
+      const bool comes = ends(slot);
+      a(slot, slots_[slot].chance, comes);
+      visitRecord(a, slots_[slot].drop);
+    }
+  }
+}
+
+void Drops::read(saved::Reader& a, uint32_t kind, uint32_t cell, uint32_t& bunch) {
+  uint32_t count = 0;
+  a.within(count, 0u, capacity() - pool_.used());
+  for (uint32_t i = 0; i < count; ++i) {
+    uint32_t slot = 0;
+    float chance = 0.0f;
+    bool comes = false;
+    RainDrop drop{};
+    a.within(slot, 0u, capacity() - 1);
+    a.within(chance, 0.0, 2.0);
+    a(comes);
+    visitRecord(a, drop);
+    a.require(!alive(slot), "two drops are in one slot");
+    a.require(shared::rainClassOf(drop) == kind, "a drop is of another class than its cell");
+    pool_.takeThis(slot);
+    touch(slot);
+    if (bunch == kNone || bunches_[bunch].count == Bunch::kMost) bunch = newBunch(bunch);
+    bunches_[bunch].slots[bunches_[bunch].count++] = slot;
+    slots_[slot] = {drop, cell, bunch, comes ? kToBeScheduled : kNoEntry, chance};
+    ++live_of_[kind];
+  }
+}
+
+void Drops::scheduleAll(uint32_t now) {
+  calendar_.start(now);
+  for (uint32_t slot = 0; slot < end(); ++slot) {
+    if (alive(slot) && ends(slot)) schedule(slot, now);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "rain/calendar.h"
 #include "rain/cells.h"
 #include "rain/fetch.h"
+#include "saved/archive.h"
 #include "shared/rain_streak.glsl"
 
 namespace rg::rain {
@@ -43,6 +44,7 @@ class SlotPool {
   void give(size_t at, uint64_t bits, uint32_t count);
   void give(uint32_t slot) { give(slot / 64, uint64_t{1} << (slot % 64), 1); }
   void clear();
+  void takeThis(uint32_t slot);  // which is free
   // Calls each(slot) for the next that will be taken, some `count` of them.
   template <class F>
   void forNext(size_t count, F&& each) const {
@@ -143,6 +145,12 @@ class Drops {
   }
   void startCalendar(uint32_t now) { calendar_.start(now); }
 
+  // A cell's drops, as they lie in its bunches. What is read goes into slots that are free; scheduleAll()
+  // when all are there.
+  void write(saved::Writer& a, uint32_t bunch) const;
+  void read(saved::Reader& a, uint32_t kind, uint32_t cell, uint32_t& bunch);
+  void scheduleAll(uint32_t now);
+
   // What a slot holds that is alive; else what it held.
   const shared::RainDrop& operator[](uint32_t slot) const { return slots_[slot].drop; }
   bool ends(uint32_t slot) const { return slots_[slot].entry != kNoEntry; }
@@ -176,7 +184,7 @@ class Drops {
     std::array<uint32_t, kMost> slots{};
     uint32_t count = 0, next = kNone;
   };
-  static constexpr uint32_t kNoEntry = 0;
+  static constexpr uint32_t kNoEntry = 0, kToBeScheduled = 1;
   // A drop, where it hangs, and the number of its entry in the calendar: a line of the cache.
   struct alignas(64) Slot {
     shared::RainDrop drop{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "rain/field_state.h"
 
@@ -125,6 +126,9 @@ void Field::State::expireDrops() {
     drops.remove(slot, cells[drops.cellOf(slot)].bunch);
     ++died;
   });
+  // In an order of their own: which slots they get does not depend on what the calendar went through.
+  std::ranges::sort(fallen, {},
+                    [](const RainDrop& s) { return std::tuple(s.id, s.cell_x, s.cell_y, s.cell_z); });
   for (const RainDrop& stone : fallen) bounce(stone);
   fallen.clear();
 }

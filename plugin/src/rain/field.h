@@ -26,6 +26,7 @@
 #include "rain/region.h"
 #include "rain/volume.h"
 #include "rain/wind_profile.h"
+#include "saved/archive.h"
 #include "tick.h"
 
 namespace rg::rain {
@@ -102,6 +103,11 @@ class Field {
 
   // As Shelter::near, likewise.
   void volumesNear(std::span<const glm::dvec3> eyes_m, double radius_m, std::vector<NearVolume>& out) const;
+
+  // As it is between two ticks, but for volumes, visibility and wind profile, which stay those there are.
+  // Goes on with the same drops in the same slots.
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);
 
   FieldStats stats() const;
   uint64_t hash() const;  // over the live drops; independent of the order they came in

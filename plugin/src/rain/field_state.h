@@ -99,6 +99,11 @@ struct Field::State {
 
   // field_picture.cpp: what is handed out.
   void describe(Picture& picture) const;
+
+  // field_saved.cpp
+  static void visit(auto& a, auto& state);
+  void writeCells(saved::Writer& a) const;
+  void readCells(saved::Reader& a);
 };
 
 }  // namespace rg::rain

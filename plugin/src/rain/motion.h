@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "saved/inputs.h"
 #include "tick.h"
 
 namespace rg::rain {
@@ -26,6 +27,22 @@ class Recent {
   T& operator[](uint32_t age) { return values_[(newest_ + age) % N]; }
   const T& operator[](uint32_t age) const { return values_[(newest_ + age) % N]; }
 
+  template <class Archive>
+  static void visit(Archive& a, auto& recent) {
+    uint32_t count = recent.count_;
+    a.within(count, 0u, N);
+    if constexpr (Archive::kReads) {
+      recent.clear();
+      for (uint32_t i = 0; i < count; ++i) {
+        T value;
+        a(value);
+        recent.add(value);
+      }
+    } else {
+      for (uint32_t age = count; age-- > 0;) a(recent[age]);
+    }
+  }
+
  private:
   std::array<T, N> values_{};
   uint32_t newest_ = 0, count_ = 0;
@@ -38,6 +55,7 @@ class WindPath {
     double from_s = 0.0;
     glm::dvec3 carried_m{0.0};  // at from_s
     glm::dvec3 wind_mps{0.0};
+    static void visit(auto& a, auto& piece) { a(piece.from_s, piece.carried_m, piece.wind_mps); }
   };
   // The way so far as few straight stretches, newest first; each from `from_s` to where the one before it
   // began. They leave the way by what a prediction may, 1 cm, and by 4 cm more for each second back. The
@@ -55,6 +73,13 @@ class WindPath {
   const glm::dvec3& carried_m() const { return carried_m_; }
   const glm::dvec3& wind_mps() const { return wind_mps_; }
   void trace(Past& past) const;
+
+  static void visit(auto& a, auto& path) {
+    a(path.pieces_);
+    a.within(path.past_.count, 0u, Past::kMost);
+    for (uint32_t i = 0; i < path.past_.count; ++i) a(path.past_.stretches[i]);
+    a(path.carried_m_, path.wind_mps_, path.time_s_);
+  }
 
  private:
   void straighten();
@@ -77,6 +102,7 @@ class BodyPath {
   struct Piece {
     double from_s = 0.0;
     Pose pose;  // at from_s
+    static void visit(auto& a, auto& piece) { a(piece.from_s, piece.pose); }
   };
   static constexpr double kRenewed_s = 1.5;  // a prediction is taken afresh at least that often
   static constexpr double kAhead_s = 3.0;    // and looked ahead so far
@@ -92,6 +118,8 @@ class BodyPath {
   uint32_t pieces() const { return pieces_.size(); }
   const Piece& piece(uint32_t age) const { return pieces_[age]; }
   void shift(const glm::dvec3& shift_m);
+
+  static void visit(auto& a, auto& path) { a(path.pieces_, path.pose_); }
 
  private:
   Recent<Piece, 128> pieces_;

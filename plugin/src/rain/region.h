@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "saved/inputs.h"
 #include "tick.h"
 
 namespace rg::rain {
@@ -16,6 +17,12 @@ struct Cone {
   std::array<glm::dvec3, 4> inward;   // unit normals of the side planes, all through the eye
   std::array<glm::dvec3, 4> corners;  // unit directions of the edges
   bool valid = false;                 // false: the matrices are no perspective view
+  static void visit(auto& a, auto& cone) {
+    a.within(cone.eye_m, -kAnyNumber, kAnyNumber);
+    a.within(cone.inward, -kAnyNumber, kAnyNumber);
+    a.within(cone.corners, -kAnyNumber, kAnyNumber);
+    a(cone.valid);
+  }
 };
 Cone coneOf(const ViewState& view);
 // The view ray through clip (x, y) is middle + x right + y up, world axes, as long as makes its depth 1.
@@ -48,6 +55,11 @@ struct Region {
   std::array<double, 4> wider_m{};  // so far out the sides lie
   double reach_m = 0.0;
   glm::dvec3 middle_m{0.0};
+
+  static void visit(auto& a, auto& region) {
+    a.within(region.inward, -1.1, 1.1);
+    a(region.wider_m, region.reach_m, region.middle_m);
+  }
 };
 
 // Cells [first, last) of a row along x.
@@ -62,6 +74,7 @@ struct RowSpan {
 struct RowSet {
   static constexpr int32_t kRows = 48, kAtOnce = 8;
   static_assert(kRows % kAtOnce == 0);
+  static constexpr int32_t kFarthest = 1 << 28, kLongest = 64;  // row, and cells of it
   int32_t y0 = 0, z0 = 0, ny = 0, nz = 0;
   std::array<RowSpan, size_t{kRows} * kRows> rows;
 
@@ -70,6 +83,21 @@ struct RowSet {
   const RowSpan* line(int32_t y) const { return y >= y0 && y < y0 + ny ? &rows[at(y)] : nullptr; }
   RowSpan* line(int32_t y) { return &rows[at(y)]; }
   void clear() { ny = nz = 0; }
+
+  template <class Archive>
+  static void visit(Archive& a, auto& set) {
+    a.within(set.y0, -kFarthest, kFarthest), a.within(set.z0, -kFarthest, kFarthest);
+    a.within(set.ny, 0, kRows), a.within(set.nz, 0, kRows);
+    for (int32_t y = set.y0; y < set.y0 + set.ny; ++y) {
+      auto* span = set.line(y);
+      for (int32_t i = 0; i < set.nz; ++i, ++span) {
+        auto count = static_cast<uint8_t>(span->last - span->first);
+        a.within(span->first, -kFarthest, kFarthest);
+        a.within(count, 0, kLongest);
+        if constexpr (Archive::kReads) span->last = span->first + count;
+      }
+    }
+  }
 
  private:
   size_t at(int32_t y) const {

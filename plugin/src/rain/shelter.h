@@ -91,6 +91,12 @@ class Shelter {
   uint64_t tests() const { return tests_; }
   void clearTests() { tests_ = 0; }
 
+  // How bodies moved. The volumes stay those there are; other ones than there were when it was written count
+  // as set since.
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);
+  void takeVolumes(const Shelter& from) { volumes_ = from.volumes_; }
+
   // Adds the volumes that come nearer than `radius_m` to any of the eyes, for clipping streaks.
   void near(std::span<const glm::dvec3> eyes_m, double radius_m, std::vector<NearVolume>& out) const;
   // Adds the volumes that any of the views looks into within `radius_m` of its eye and that are not too small
@@ -117,6 +123,7 @@ class Shelter {
     std::vector<uint32_t> volumes;
   };
 
+  uint64_t volumesFingerprint() const;
   void rebuild();
   void split(uint32_t node, uint32_t first, uint32_t count);
   void gatherStatic(const glm::dvec3& middle_m, const glm::dvec3& half_m, const PathPiece& piece);

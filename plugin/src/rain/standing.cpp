@@ -37,11 +37,11 @@ inline float inSteps_m(double mm) {
   return static_cast<float>(static_cast<double>(static_cast<int32_t>(mm * 1e4 + 0.5)) * 1e-7);
 }
 
-constexpr size_t kAtOnce = 8;  // diameters: as many as a machine works out side by side, whichever it is
+constexpr size_t kSizesAtOnce = 8;  // diameters: as many as a machine works out side by side, whichever it is
 
 void sizesOf_m(const Spread& spread, const double* shares, float* out) {
-  std::array<float, kAtOnce> sizes;
-  for (size_t i = 0; i < kAtOnce; ++i) sizes[i] = inSteps_m(spread.sizeAt_mm(shares[i]));
+  std::array<float, kSizesAtOnce> sizes;
+  for (size_t i = 0; i < kSizesAtOnce; ++i) sizes[i] = inSteps_m(spread.sizeAt_mm(shares[i]));
   std::copy(sizes.begin(), sizes.end(), out);
 }
 
@@ -151,7 +151,7 @@ void diametersOf_m(const InTheAir& air, uint32_t kind, std::span<const double> s
   size_t i = 0;
   if (fallClasses()[kind].hydrometeor == Hydrometeor::kRain) {  // as wide as the laws say
     const Spread spread(air, kind);
-    for (; i + kAtOnce <= sizes.size(); i += kAtOnce) sizesOf_m(spread, &sizes[i], &out[i]);
+    for (; i + kSizesAtOnce <= sizes.size(); i += kSizesAtOnce) sizesOf_m(spread, &sizes[i], &out[i]);
   }
   for (; i < sizes.size(); ++i) out[i] = diameterOf_m(air, kind, sizes[i]);
 }
@@ -211,10 +211,55 @@ void RateHistory::noteMost() {
   }
   for (uint32_t kind = 0; kind < kClasses; ++kind)
     block[kind] = std::max(block[kind], ring_[now_].density_m3[kind]);
+  findMost();
+}
+
+void RateHistory::findMost() {
   most_m3_.fill(0.0);
   for (const Densities& of : most_of_block_) {
     for (uint32_t kind = 0; kind < kClasses; ++kind) most_m3_[kind] = std::max(most_m3_[kind], of[kind]);
   }
+}
+
+// As runs of what is alike: rates seldom change.
+void RateHistory::write(saved::Writer& a) const {
+  a(now_, steady_);
+  for (uint32_t i = 0; i < kTicks;) {
+    uint32_t end = i + 1;
+    while (end < kTicks && ring_[end].rates == ring_[i].rates) ++end;
+    const uint32_t run = end - i;
+    a(run, ring_[i].rates.mm_h);
+    i = end;
+  }
+  for (uint32_t i = 0; i < most_of_block_.size();) {
+    uint32_t end = i + 1;
+    while (end < most_of_block_.size() && most_of_block_[end] == most_of_block_[i]) ++end;
+    const uint32_t run = end - i;
+    a(run, most_of_block_[i]);
+    i = end;
+  }
+}
+
+void RateHistory::read(saved::Reader& a) {
+  a.within(now_, 0u, kTicks - 1);
+  a(steady_);
+  for (uint32_t i = 0; i < kTicks;) {
+    uint32_t run = 0;
+    Rates rates;
+    a.within(run, 1u, kTicks - i);
+    a.within(rates.mm_h, 0.0, 300.0);
+    std::fill_n(ring_.begin() + i, run, InTheAir::of(rates));
+    i += run;
+  }
+  for (uint32_t i = 0; i < most_of_block_.size();) {
+    uint32_t run = 0;
+    Densities densities{};
+    a.within(run, 1u, static_cast<uint32_t>(most_of_block_.size()) - i);
+    a.within(densities, 0.0, 1e7);
+    std::fill_n(most_of_block_.begin() + i, run, densities);
+    i += run;
+  }
+  findMost();
 }
 
 }  // namespace rg::rain

@@ -8,6 +8,7 @@
 
 #include "rain/cells.h"
 #include "rain/hydrometeors.h"
+#include "saved/archive.h"
 
 namespace rg::rain {
 
@@ -79,11 +80,15 @@ class RateHistory {
   double most_m3(uint32_t kind) const { return most_m3_[kind]; }
   bool steady() const { return steady_ >= kTicks; }
 
+  void write(saved::Writer& a) const;
+  void read(saved::Reader& a);
+
  private:
   using Densities = std::array<double, kClasses>;
   static constexpr uint32_t kBlock = 32;
 
   void noteMost();
+  void findMost();
 
   std::array<InTheAir, kTicks> ring_{};
   std::array<Densities, kTicks / kBlock> most_of_block_{};

@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "saved/archive.h"
+
 namespace rg::rain {
 
 // Inside where dot(normal, p) <= d.
 struct Plane {
   glm::dvec3 normal{0.0, 0.0, 1.0};
   double d = 0.0;
+  static void visit(auto& a, auto& plane) { a(plane.normal, plane.d); }
 };
 
 struct Box {

@@ -29,6 +29,11 @@ struct WindProfile {
 
   double dropShare(double fall_speed_mps) const;
 
+  static void visit(auto& a, auto& profile) {
+    a.within(profile.roughness_m, 0.0, 1.0);
+    a(profile.height_m, profile.air_share, profile.drop_share);
+  }
+
  private:
   static std::array<double, kClasses> allOne() {
     std::array<double, kClasses> ones{};

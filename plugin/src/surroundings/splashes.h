@@ -9,6 +9,7 @@
 #include "rain/picture.h"
 #include "rain/region.h"
 #include "rain/wind_profile.h"
+#include "saved/inputs.h"
 #include "shared/splash.glsl"
 #include "tick.h"
 
@@ -33,6 +34,7 @@ struct SplashPicture {
   struct Vehicle {
     uint32_t id = 0;
     Pose pose;
+    static void visit(auto& a, auto& vehicle) { a(vehicle.id, vehicle.pose); }
   };
   int64_t time_ns = 0;
   double flux_per_m2s = 0.0;  // of drops over kSplashFrom_mm through level ground
@@ -45,6 +47,17 @@ struct SplashPicture {
   std::vector<Vehicle> vehicles;  // that views are in
   std::vector<glm::dvec3> eyes_m;
   std::vector<rain::NearVolume> volumes;
+
+  // All but the volumes.
+  static void visit(auto& a, auto& picture) {
+    constexpr size_t kMost = 4096;
+    a.within(picture.time_ns, -kLatestTime_ns, kLatestTime_ns);
+    a.within(picture.flux_per_m2s, 0.0, 1e6);
+    a.within(picture.sizes_mm, 0.0, 20.0);
+    a(picture.drift_mps, picture.ground_m, picture.ground_known, picture.origin_m);
+    a.list(picture.vehicles, kMost);
+    a.list(picture.eyes_m, kMost, [&a](auto& eye_m) { a.within(eye_m, -kAnyNumber, kAnyNumber); });
+  }
 };
 
 // Follows the weather from tick to tick.
@@ -55,6 +68,10 @@ class Splashes {
   void rebase(const glm::dvec3& shift_m);  // the host's world moved: p_new = p_old - shift
   // All but the volumes.
   const SplashPicture& picture() const { return picture_; }
+
+  static void visit(auto& a, auto& splashes) {
+    a(splashes.sized_for_mm_h_, splashes.started_, splashes.picture_);
+  }
 
  private:
   double sized_for_mm_h_ = -1.0;

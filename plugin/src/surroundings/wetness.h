@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "saved/archive.h"
 #include "tick.h"
 
 namespace rg::surroundings {
@@ -21,6 +22,7 @@ class Wetness {
   void tick(const Tick& tick);
   void reset() { water_mm_ = 0.0; }
   double water_mm() const { return water_mm_; }
+  static void visit(auto& a, auto& wetness) { a.within(wetness.water_mm_, 0.0, kMostOnGround_mm); }
 
  private:
   double water_mm_ = 0.0;
