@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "glass/drop_shape.h"
+#include "glass/film_link.h"
 #include "glass/water.h"
 #include "scene.h"
 #include "shared/optics_drop.glsl"
@@ -164,6 +165,32 @@ TEST(Drops, mergingKeepsMassAndMomentum) {
   EXPECT_EQ(scene.sim->stats().drops_pl + scene.sim->stats().drained_pl, both);
 }
 
+// However drops came to where they are, of all pairs none is left lying in one another: looked for without
+// the neighbour grid. Narrowest reaches and a tenth less, as bases that rest grow long and turn without a
+// look.
+TEST(Drops, noneAreLeftLyingInOneAnother) {
+  DropScene scene(rad(30), glass::Glass::dirty, 20000);
+  glass::PaneTick tick = weather(60.0, 14.0);
+  int pairs_near = 0;
+  for (int second = 0; second < 3; ++second) {
+    scene.run(tick, 0.8);
+    const std::vector<shared::GlassDropRecord> drops = scene.sim->snapshot()->drops;
+    ASSERT_GT(drops.size(), 500u);
+    for (size_t i = 0; i < drops.size(); ++i) {
+      for (size_t k = 0; k < i; ++k) {
+        const auto reach = [](const shared::GlassDropRecord& drop) {
+          return drop.base_radius_m / std::sqrt(drop.elongation);
+        };
+        const float apart =
+            glm::distance(drops[i].position_m, drops[k].position_m) / (reach(drops[i]) + reach(drops[k]));
+        if (apart < 1.5f) ++pairs_near;
+        EXPECT_GT(apart, 0.9f * 0.92f) << drops[i].base_radius_m << " and " << drops[k].base_radius_m;
+      }
+    }
+  }
+  EXPECT_GT(pairs_near, 100);
+}
+
 // Hooshanginejad & Lee 2022: the largest run down, smaller ones are blown up, the tiniest stick; faster
 // driving moves the border to larger drops.
 TEST(Drops, windSortsThemBySize) {
@@ -297,6 +324,41 @@ TEST(DropShape, anyOutlineHoldsTheSameVolume) {
         EXPECT_NEAR(sum * scale * half_width / volume, 1.0, 1e-3);  // floats, and as many columns
       }
     }
+  }
+}
+
+// What drops are told of the film's thickness: a tile's mean in its middle, and from there to the next tile's
+// no step that is wider than a texel's share of the way.
+TEST(DropsOnFilm, thicknessIsSmoothFromTileToTile) {
+  const Mesh mesh = windscreen(0.6, 0.4, rad(30));
+  const glass::PaneMap map(paneInfo(mesh));
+  glass::Ledger ledger;
+  glass::FilmLink film(map, ledger);
+  film.attach();
+  film.close(0, {}, {});
+  film.fetch();
+  constexpr double kThick_m = 100e-6;
+  const glm::ivec2 thick = map.tileCount() / 2;
+  const auto number = static_cast<size_t>(thick.y * map.tileCount().x + thick.x);
+  glass::FilmReport report;
+  report.tiles.assign(map.tileArea_m2().size(), shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
+  const int64_t volume_pl = glass::picolitres(kThick_m * static_cast<double>(map.tileArea_m2()[number]));
+  report.tiles[number].film_low_pl = static_cast<uint32_t>(volume_pl & 0xffff);
+  report.tiles[number].film_high = static_cast<uint32_t>(volume_pl >> 16);
+  film.deliver(std::move(report));
+  std::vector<glass::Taker> takers;
+  ASSERT_TRUE(film.use(0, report, takers));
+
+  const auto at = [&](int x, int y) { return film.thickness_m(y * map.grid().size.x + x) / kThick_m; };
+  constexpr int kTile = shared::kTileSize;
+  const glm::ivec2 low = thick * kTile, middle = low + kTile / 2;
+  // Of an even number of texels none is in the middle.
+  EXPECT_NEAR(at(middle.x, middle.y), 1.0, 1.0 / kTile);
+  EXPECT_NEAR(0.5 * (at(low.x - 1, middle.y) + at(low.x, middle.y)), 0.5, 0.5 / kTile);
+  EXPECT_EQ(at(low.x - kTile, middle.y), 0.0);
+  for (int x = low.x - kTile; x < low.x + 2 * kTile; ++x) {
+    EXPECT_LT(std::abs(at(x + 1, middle.y) - at(x, middle.y)), 1.01 / kTile) << x - low.x;
+    EXPECT_LT(std::abs(at(middle.x, x - low.x + low.y + 1) - at(middle.x, x - low.x + low.y)), 1.01 / kTile);
   }
 }
 

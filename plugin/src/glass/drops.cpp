@@ -346,10 +346,10 @@ void Drops::age(const DropWorld& world) {
 
 void Drops::age(const DropWorld& world, int slot) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const double film_m = world.film.thickness_m(drop.texel);
+  const double deep_m = 2.0 * surface_.wetting_m;
+  const double film_m = world.film.thickest_m() > deep_m ? world.film.thickness_m(drop.texel) : 0.0;
   // A drop in a film as thick as a part of itself is no drop any more; it takes half a second.
-  const bool drowns = film_m > 2.0 * surface_.wetting_m &&
-                      static_cast<double>(drop.height_m) < 5.0 * film_m &&
+  const bool drowns = film_m > deep_m && static_cast<double>(drop.height_m) < 5.0 * film_m &&
                       shared::unitFloat(shared::pcg(drop.seed + static_cast<uint32_t>(world.tick))) < 0.22f;
   if (drowns) {
     const glm::dvec2 place = drop.place_m;

@@ -79,8 +79,11 @@ class FilmLink {
   // The report to be used now, with its takers; false: none.
   bool use(int64_t step, FilmReport& report, std::vector<Taker>& takers);
 
-  double thickness_m(int texel) const;  // of the film, mean over the tile, as last used
-  bool watered(int texel) const;        // film or beads are in the tile, as last used
+  // Of the film as last used: tiles' means, linear between their middles. Nowhere is it more than the
+  // thickest's.
+  double thickness_m(int texel) const;
+  double thickest_m() const { return static_cast<double>(thickest_m_); }
+  bool watered(int texel) const;  // film or beads are in the tile, as last used
 
   int64_t film_pl() const { return film_pl_; }
   int64_t beads_pl() const { return beads_pl_; }
@@ -118,6 +121,7 @@ class FilmLink {
   std::deque<FilmReport> reports_;  // not yet used
   std::deque<std::vector<Taker>> report_takers_;
   std::vector<float> tile_thickness_m_;
+  float thickest_m_ = 0.0f;
   std::vector<bool> tile_watered_;
   void checkOrder(const saved::Reader& a) const;
   void findGathered();

@@ -117,6 +117,8 @@ void FilmLink::read(saved::Reader& a, const SweptBy& swept_by) {
   a.list(thickness_m, tile_thickness_m_.size(), [&a](float& m) { a.within(m, 0.0, 1e6); });
   a.require(thickness_m.size() == tile_thickness_m_.size(), "it has another number of tiles");
   tile_thickness_m_ = std::move(thickness_m);
+  thickest_m_ = 0.0f;
+  for (const float m : tile_thickness_m_) thickest_m_ = std::max(thickest_m_, m);
   for (size_t i = 0; i < tile_watered_.size(); ++i) {
     bool watered = false;
     a(watered);
