@@ -21,7 +21,8 @@ SeenBead seenBead(vec2 place, vec2 dx, vec2 dy) {
   int number = int(here.x);
   vec2 in_texel = fract(bent);
   float mean = max(here.y, here.z);
-  SeatedBead bead = seatedBead(uint(texel.y * size.x + texel.x), ivec2(in_texel * float(beadCells(number))), number, mean);
+  uint seat = uint(texel.y * size.x + texel.x);
+  SeatedBead bead = seatedBead(seat, beadCellAt(seat, in_texel, number, mean), number, mean);
   vec2 radius = max(here.yz * bead.size, vec2(1e-4));
   SeenBead seen;
   seen.aside = (in_texel - bead.middle) / radius;
