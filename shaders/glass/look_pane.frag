@@ -65,14 +65,24 @@ vec3 beadNormal(SeenBead bead, vec3 normal, vec2 dx, vec2 dy) {
   return normalize(normal * sqrt(max(1.0 - dot(tilt, tilt), 0.0)) + along_u * tilt.x + along_v * tilt.y);
 }
 
-// Through the glass and out of the cap; where the cap reflects all, on in the bead, to leave by many ways about that direction.
+// Through the glass and out of the cap; where the cap reflects all, on in the bead, by its base too, to leave by many ways about that direction. A pixel of a
+// small bead sees both, each by its share.
 vec3 throughBead(SeenBead bead, vec3 within, vec3 normal, vec3 cap) {
-  vec3 out_direction = refract(within, -cap, kWaterIndex);
-  bool leaves = dot(out_direction, out_direction) > 0.5;
-  float spread = leaves ? frame.bead_sine / bead.radius_px : 0.7;
-  vec3 direction = leaves ? out_direction : reflect(within, cap);
+  const float kCritical = 0.6612;  // cosine: sqrt(1 - 1 / n^2)
+  float turns = frame.bead_sine / bead.radius_px;  // how much the cap turns from pixel to pixel
+  float cosine = dot(within, cap);
+  float leaving = clamp((cosine - kCritical) / (0.75 * turns) + 0.5, 0.0, 1.0);
+  // As refract(), grazing where nothing leaves.
+  float straight = sqrt(max(1.0 - kWaterIndex * kWaterIndex * (1.0 - cosine * cosine), 0.0));
+  vec3 out_direction = normalize(kWaterIndex * within + (straight - kWaterIndex * cosine) * cap);
+  vec3 kept = reflect(within, cap);
+  float to_base = -dot(kept, normal);
+  float kept_share = to_base > 0.0 ? fresnel(to_base, 1.0 / kWaterIndex) : 1.0;
+  vec3 kept_direction = to_base > 0.0 ? reflect(kept, normal) : kept;
   mat3 world_from_vehicle = mat3(frame.world_from_vehicle);
-  return surroundingsOfGlass(world_from_vehicle * direction, world_from_vehicle * normal, spread);
+  vec3 outward = world_from_vehicle * normal;
+  vec3 light = leaving * surroundingsOfGlass(world_from_vehicle * out_direction, outward, turns);
+  return light + (1.0 - leaving) * mix(frame.cabin_share, 1.0, kept_share) * surroundingsOfGlass(world_from_vehicle * kept_direction, outward, 0.7);
 }
 
 #ifdef MIRROR

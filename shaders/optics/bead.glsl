@@ -9,7 +9,7 @@ layout(binding = 3) uniform sampler2D beads;  // of look_beads.frag; empty where
 struct SeenBead {
   float cover;      // share of the pixel
   float hazy;       // share covered by unresolved ones
-  vec2 aside;       // from the bead's middle in its radii, axes of the grid
+  vec2 aside;       // from the bead's middle in its radii, axes of the grid: the middle of what the pixel sees of it
   float radius_px;
 };
 
@@ -21,7 +21,8 @@ SeenBead seenBead(vec2 place, vec2 dx, vec2 dy) {
   int number = int(here.x);
   vec2 in_texel = fract(bent);
   float mean = max(here.y, here.z);
-  SeatedBead bead = seatedBead(uint(texel.y * size.x + texel.x), ivec2(in_texel * float(beadCells(number))), number, mean);
+  uint seat = uint(texel.y * size.x + texel.x);
+  SeatedBead bead = seatedBead(seat, beadCellAt(seat, in_texel, number, mean), number, mean);
   vec2 radius = max(here.yz * bead.size, vec2(1e-4));
   SeenBead seen;
   seen.aside = (in_texel - bead.middle) / radius;
@@ -30,6 +31,8 @@ SeenBead seenBead(vec2 place, vec2 dx, vec2 dy) {
   float per_px = max(length(vec2(dot(outline, dx), dot(outline, dy))), 1e-4);  // in radii
   seen.cover = bead.size > 0.0 ? clamp((1.0 - from_middle) / per_px + 0.5, 0.0, 1.0) * min(2.0 * fract(here.x), 1.0) : 0.0;
   seen.radius_px = 1.0 / per_px;
+  float nearest = max(from_middle - 0.5 * per_px, -1.0), farthest = min(from_middle + 0.5 * per_px, 1.0);
+  seen.aside *= 0.5 * (nearest + farthest) / from_middle;
   seen.hazy = textureLod(beads, place / vec2(size), 0.0).w;
   return seen;
 }

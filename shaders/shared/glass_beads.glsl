@@ -99,8 +99,39 @@ RG_FN vec2 gridPlace(vec2 bead_place) {
   return p;
 }
 
-// Each texel is cut into cells x cells, at least 2 x 2, one bead in each or none.
+// Each texel is cut into cells x cells, at least 2 x 2, one bead in each or none: into rows, and each row by itself, at places of its own, so that beads
+// that crowd do not stand in line. Not so 2 x 2, where a lone one finds its seat, too. Lines: rows' are kBeadRows, those in a row are its number.
+RG_CONST float kUnevenCells = 0.25f; // at most: of a cell's width, either way (by eye)
+RG_CONST int kBeadRows = 8;
 RG_FN int beadCells(int number) { return max(int(ceil(sqrt(float(number)) - 1.0e-4f)), 2); }
+// What beads of this mean radius, in texels, leave for cells to differ, all but the largest being whole.
+RG_FN float unevenCells(int cells, float mean) { return cells > 2 ? clamp(0.5f - 1.1f * mean * float(cells), 0.0f, kUnevenCells) : 0.0f; }
+RG_FN float beadEdge(uint texel, int line, int k, int cells, float uneven) {
+  float u = unitFloat(pcg(pcg(texel ^ 0x68e31da4u) + uint(line * 16 + k)));
+  return k <= 0 ? 0.0f : k >= cells ? 1.0f : (float(k) + uneven * (2.0f * u - 1.0f)) / float(cells);
+}
+RG_FN int beadCellAlong(uint texel, int line, float place, int cells, float uneven) {
+  int k = min(int(place * float(cells)), cells - 1);
+  return k + (place >= beadEdge(texel, line, k + 1, cells, uneven) ? 1 : 0) - (place < beadEdge(texel, line, k, cells, uneven) ? 1 : 0);
+}
+// Of `number` beads.
+RG_FN ivec2 beadCellAt(uint texel, vec2 in_texel, int number, float mean) {
+  int cells = beadCells(number);
+  float uneven = unevenCells(cells, mean);
+  int row = beadCellAlong(texel, kBeadRows, in_texel.y, cells, uneven);
+  return ivec2(beadCellAlong(texel, row, in_texel.x, cells, uneven), row);
+}
+RG_FN vec2 beadCorner(uint texel, ivec2 cell, int number, float mean) {
+  int cells = beadCells(number);
+  float uneven = unevenCells(cells, mean);
+  return vec2(beadEdge(texel, cell.y, cell.x, cells, uneven), beadEdge(texel, kBeadRows, cell.y, cells, uneven));
+}
+// The corner across from that.
+RG_FN vec2 beadOpposite(uint texel, ivec2 cell, int number, float mean) {
+  int cells = beadCells(number);
+  float uneven = unevenCells(cells, mean);
+  return vec2(beadEdge(texel, cell.y, cell.x + 1, cells, uneven), beadEdge(texel, kBeadRows, cell.y + 1, cells, uneven));
+}
 
 struct SeatedBead {
   vec2 middle; // in the texel, 0 .. 1
@@ -122,13 +153,13 @@ RG_FN SeatedBead seatedBead(uint texel, ivec2 seen_cell, int number, float mean)
   float even = 1.0f - unitFloat(pair);
   float differ = (rank ^ 1) < number ? 0.95f * (1.0f - even * even) : 0.0f;
   float volume = 1.0f + ((rank & 1) != 0 ? differ : -differ);
-  float width = 1.0f / float(cells), room = number == 1 ? 1.0f : width;
-  float radius = min(mean * pow(volume, 1.0f / 3.0f), 0.5f * room);
+  vec2 corner = beadCorner(texel, cell, number, mean), width = beadOpposite(texel, cell, number, mean) - corner;
+  vec2 room = number == 1 ? vec2(1.0f, 1.0f) : width;
+  float radius = min(mean * pow(volume, 1.0f / 3.0f), 0.5f * min(room.x, room.y));
   uint g = pcg(pair + uint(rank) + 17u);
-  vec2 corner = vec2(float(cell.x), float(cell.y)) * width;
   vec2 own = corner + vec2(unitFloat(g), unitFloat(pcg(g))) * width;
   vec2 low = number == 1 ? vec2(0.0f, 0.0f) : corner;
-  bead.middle = clamp(own, low + vec2(radius, radius), low + vec2(room - radius, room - radius));
+  bead.middle = clamp(own, low + vec2(radius, radius), low + room - vec2(radius, radius));
   bead.size = rank < number && mean > 0.0f ? radius / mean : 0.0f;
   return bead;
 }

@@ -411,6 +411,54 @@ TEST_F(Look, beadsCoverAsMuchAsTheyAre) {
   EXPECT_LT(taken(64, {160, 90}), 0.01);
 }
 
+// How dark the darkest hundredth of the pixels is.
+double darkestOf(Picture picture) {
+  const auto hundredth = picture.pixels.begin() + static_cast<std::ptrdiff_t>(picture.pixels.size() / 100);
+  std::nth_element(picture.pixels.begin(), hundredth, picture.pixels.end(),
+                   [](const glm::vec4& a, const glm::vec4& b) { return a.x < b.x; });
+  return static_cast<double>(hundredth->x);
+}
+
+// A bead's light is a short way to what is traced through a drop of its size and shape: in the mean over many
+// they show as much of a bright sky, a dim ground and a dark cabin, seen large or of about a pixel.
+TEST_F(Look, beadsShowInTheMeanWhatDropsOfTheirShapeDo) {
+  constexpr int kTexels = 100;
+  constexpr double kTexel_m = 3e-3, kCovered = 0.12;
+  const double contact_rad = glm::radians(30.0);
+  const gl::TextureCube sky =
+      makeCube(gl, 32, [](const glm::vec3& d) { return glm::vec3(d.z > 0.0f ? 1.0f : 0.2f); });
+  const double radius_m = kTexel_m * std::sqrt(kCovered / glm::pi<double>());
+  FlatPane beads(gl, kRake, kTexels * kTexel_m, kTexels), drops(gl, kRake, kTexels * kTexel_m, kTexels);
+  beads.putBeads([](double, double) { return 1; }, kCovered, contact_rad);
+  std::vector<GlassDropRecord> records;
+  for (int y = 2; y < kTexels - 2; ++y) {
+    for (int x = 2; x < kTexels - 2; ++x) {
+      const auto mean = static_cast<float>(radius_m / kTexel_m);
+      const shared::SeatedBead seat =
+          shared::seatedBead(static_cast<uint32_t>(y * kTexels + x), glm::ivec2(0), 1, mean);
+      const glm::dvec2 place(shared::gridPlace(glm::vec2(x, y) + seat.middle));
+      records.push_back(drops.cap((place.x / kTexels - 0.5) * kTexels * kTexel_m,
+                                  (place.y / kTexels - 0.5) * kTexels * kTexel_m, radius_m, contact_rad));
+    }
+  }
+  drops.putDrops(records);
+  for (const glm::ivec2 size_px : {glm::ivec2(1920, 1080), glm::ivec2(640, 360), glm::ivec2(480, 270)}) {
+    Scene scene = inside(size_px);
+    scene.view = forwardView(size_px, glm::radians(20.0));
+    scene.light.environment_cube = sky.name();
+    scene.picture = paint(size_px, [](int, int) { return glm::vec3(0.0f); });
+    const double bead_light = lightTaken(draw(gl, look, scene, {&beads.pane, 1}), draw(gl, look, scene, {})),
+                 drop_light = lightTaken(draw(gl, look, scene, {&drops.pane, 1}), draw(gl, look, scene, {}));
+    std::printf("%d: %g %g\n", size_px.x, bead_light, drop_light);
+    EXPECT_NEAR(bead_light / drop_light, 1.0, 0.12) << size_px.x;
+    scene.picture = paint(size_px, [](int, int) { return glm::vec3(1.0f); });
+    const double bead_specks = darkestOf(draw(gl, look, scene, {&beads.pane, 1})),
+                 drop_specks = darkestOf(draw(gl, look, scene, {&drops.pane, 1}));
+    std::printf("%d: %g %g\n", size_px.x, bead_specks, drop_specks);
+    EXPECT_GT(bead_specks, drop_specks - 0.1) << size_px.x;
+  }
+}
+
 // A lone bead shows the world upside down, as a drop does.
 TEST_F(Look, aBeadShowsTheSkyBelowAndTheGroundAbove) {
   FlatPane pane(gl, glm::radians(90.0), 0.8, 64);
