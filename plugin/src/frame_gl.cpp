@@ -190,11 +190,14 @@ void Frame::setFilms(const FilmStates& films) {
 
 void Frame::stepGpu() {
   Gl& gl = attached();
-  const gl::StateGuard guarded = gl.guard(kStepTouches);
+  std::unique_lock lock(sim_);
+  // Buffers are written through direct state access; only kernels and new objects need state of the host's.
+  const bool binds = !panes_.empty() || !gl.panes.empty() || gl.rain->uploadBinds(upload_) ||
+                     gl.pattern_version != pattern_version_;
+  const gl::StateGuard guarded = gl.guard(binds ? kStepTouches : 0);
   timers_.collect();
   {
     const gl::ScopedStage timed(timers_, stage_.rain_upload);
-    const std::lock_guard lock(sim_);
     gl.rain->upload(upload_);
     gl.beyond->take(beyond_picture_);
     gl.splashes->take(splash_picture_);
@@ -204,10 +207,8 @@ void Frame::stepGpu() {
     gl.pattern_version = pattern_version_;
   }
   const gl::ScopedStage timed(timers_, stage_.glass_step);
-  {
-    const std::lock_guard lock(sim_);
-    syncPanes(gl);
-  }
+  syncPanes(gl);
+  lock.unlock();
   std::vector<glass::PaneGl*> panes;
   for (auto& [id, half] : gl.panes) panes.push_back(half.gl.get());
   glass::PaneGl::step(panes);

@@ -1,7 +1,10 @@
-// Works out each drop's streak once, and hands those to be seen to the draw calls: a workgroup's stand side by side in its own part of `drawn`,
-// lines from its head and rectangles from its end, in the order of their slots, so that the same drops always give the same picture; a draw
-// command of each sort for each workgroup.
-// Defines: SOLIDS where flakes or stones may be among them, as software GL runs both sides of every branch.
+// Works out each drop's streak once, and hands those to be seen to the draw calls: a workgroup's stand side by side in its own part of `drawn`, in
+// which there is room for four corners of a thin line or a rectangle of each slot, those from the head and these from the end, and for two of another
+// line after them. All in the order of their slots, so that the same drops always give the same picture; a draw command of each sort for each
+// workgroup.
+// Defines: SOLIDS where flakes or stones may be among them, as software GL runs both sides of every branch. RG_SOFTWARE_GL: there a workgroup is as
+// wide as a processor's vectors and goes through its slots in many rounds, as barriers between invocations that do not run at once are dear, and as
+// each draw command costs the thread that gives it.
 #include "shared/rain_drop.glsl"
 layout(std140, binding = 0) uniform ClassBlock {
   RainClass classes[kRainClasses];
@@ -13,19 +16,35 @@ layout(std140, binding = 1) uniform ShelterBlock { RainShelter rain_shelter; };
 #include "shared/rain_drawn.glsl"
 #include "shared/rain_streak.glsl"
 
-layout(local_size_x = kRainDrawnGroup) in;
-layout(std430, binding = 0) readonly buffer Records { RainDrop records[]; };
+#ifdef RG_SOFTWARE_GL
+const uint kLanes = 8u, kRounds = 128u;
+#else
+const uint kLanes = kRainPart, kRounds = 1u;
+#endif
+const uint kWords = (kLanes + 31u) / 32u;
+
+layout(local_size_x = kLanes) in;
+layout(std430, binding = 0) coherent buffer Records { RainDrop records[]; };
 layout(std430, binding = 1) writeonly buffer Drawn { RainCorner drawn[]; };
+layout(std430, binding = 4) writeonly buffer Told { vec4 told_of[]; };
 layout(std430, binding = 2) writeonly buffer Commands { RainCommand commands[]; };
 layout(std430, binding = 3) writeonly buffer LineCommands { RainLineCommand line_commands[]; };
 layout(location = 0) uniform uint slot_end;
-layout(location = 1) uniform float widest_line_px;  // 0: no lines
+layout(location = 1) uniform uint group_parts;
+layout(location = 2) uniform bool draws_lines;
+// New records that are put in their slots first: `slots` and `fresh` hold them workgroup by workgroup, whose ones begin at `starts`.
+layout(location = 3) uniform bool brings_records;
+layout(std430, binding = 5) readonly buffer Slots { uint slots[]; };
+layout(std430, binding = 6) readonly buffer Fresh { RainDrop fresh[]; };
+layout(std430, binding = 7) readonly buffer Starts { uint starts[]; };
 
 const float kSharpFrom_m = 0.5;  // nearer drops are out of any lens's focus: spread until they cannot be seen (unsourced)
 const float kDensest = 0.85;     // what is shown stronger than in nature hides no more of what is behind it (unsourced)
 const float kDot_px = 1e-2;      // shorter ways have no direction
 
-shared uint line_bits[kRainDrawnGroup / 32u], rectangle_bits[kRainDrawnGroup / 32u];
+// Of each sort a bit for each lane, in turn three times, so that one barrier a round will do: one is written, one cleared, one may still be read.
+shared uint sort_bits[3u * 3u * kWords];
+shared uint near_picture[kRainPart];  // slots
 
 vec2 onScreen(vec3 p) {
   vec4 clip = look.clipFromWorldAtEye * vec4(p, 1.0);
@@ -51,6 +70,30 @@ uint rainPackedLight(vec3 light) {
   return parts.r | parts.g << 9u | parts.b << 18u | (exponent - 112u) << 27u;
 }
 
+// How far beside the picture's middle anything of a streak can lie that is seen of it, by its drop's radius where it is nearest.
+vec2 edgeOf(float radius_px) { return 0.5 * look.viewport.zw + rainSoftened(radius_px) + 1.0; }
+
+// False of many that are not in the picture, of none that is: of drops by their way through all of the exposure, whatever shelter there is; what does
+// not fall straight may be anywhere.
+bool mayBeSeen(uint slot) {
+  RainDrop drop = records[slot];
+  if (drop.diameter_m <= 0.0) return false;
+  RainClass its_class = classes[rainClassOf(drop)];
+#ifdef SOLIDS
+  if (its_class.base.w != kRainIsRain) return true;
+#endif
+  const float kLonger = 1.001;  // for roundings
+  vec3 drop_m = rainPlace(drop, its_class);
+  vec3 way_m = (its_class.velocity_reach.xyz - rain_view.eye_velocity_exposure.xyz) * (0.5 * kLonger * rain_view.eye_velocity_exposure.w);
+  float depth_m = dot(drop_m, look.forward.xyz), nearer_m = abs(dot(way_m, look.forward.xyz));
+  float nearest_m = depth_m - nearer_m;
+  if (depth_m + nearer_m < kRainNearest_m) return false;
+  if (nearest_m < kRainNearest_m) return true;
+  vec2 from_px = onScreen(drop_m - way_m), to_px = onScreen(drop_m + way_m);
+  vec2 edge_px = edgeOf(0.5 * drop.diameter_m * look.focal.y / nearest_m) + 0.5;
+  return !any(greaterThan(min(from_px, to_px), edge_px)) && !any(lessThan(max(from_px, to_px), -edge_px));
+}
+
 // False when none of it is in the picture.
 bool seenOf(uint slot, out Seen result) {
   result = Seen(vec4(0.0), vec4(0.0), vec4(0.0), 0.0, 0u);
@@ -73,7 +116,7 @@ bool seenOf(uint slot, out Seen result) {
   vec2 from_px = onScreen(streak.drop_m + streak.velocity_mps * from), to_px = onScreen(streak.drop_m + streak.velocity_mps * to);
   vec2 depths_m = vec2(depth + approach * from, depth + approach * to);
   float radius_px_m = 0.5 * drop.diameter_m * look.focal.y;
-  vec2 edge_px = 0.5 * look.viewport.zw + rainSoftened(radius_px_m / min(depths_m.x, depths_m.y)) + 1.0;
+  vec2 edge_px = edgeOf(radius_px_m / min(depths_m.x, depths_m.y));
   if (any(greaterThan(min(from_px, to_px), edge_px)) || any(lessThan(max(from_px, to_px), -edge_px))) return false;
 
   float middle_m = 0.5 * (depths_m.x + depths_m.y);
@@ -89,6 +132,8 @@ bool seenOf(uint slot, out Seen result) {
   result.solid = rainSolidCode(is_of, drop.id);
   return true;
 }
+
+const uint kNone = 0u, kThinLine = 1u, kLine = 2u, kRectangle = 3u;  // what a streak is drawn as
 
 // What is drawn lies in the picture's plane; fragments tell from their place in it when the drop passed, and how far beside them.
 struct Shape {
@@ -128,11 +173,13 @@ vec2 inPicture(vec4 ends_px) {
 }
 
 // GL gives a line its width along that axis of the picture along which it is shorter, and none where its middle lies beside the picture.
-bool fitsLine(Shape shape, vec2 kept) {
+uint sortOf(Shape shape, vec2 kept) {
   vec2 size = abs(shape.along), half_px = 0.5 * look.viewport.zw;
   vec2 farthest_px = max(abs(shape.ends_px.xy), abs(shape.ends_px.zw));
   bool inside = size.x > size.y ? farthest_px.y < half_px.y : farthest_px.x < half_px.x;
-  return inside && kept.x < kept.y && 2.0 * shape.side_px <= widest_line_px * max(size.x, size.y);
+  float width_px = 2.0 * shape.side_px / max(size.x, size.y);
+  if (!draws_lines || !inside || kept.x >= kept.y || width_px > kRainLine_px) return kRectangle;
+  return width_px > kRainThinLine_px ? kLine : kThinLine;
 }
 
 // The part of its way, of that which lies in the picture, between whose ends a line is drawn. A line covers those rows of pixels (columns, where it
@@ -174,42 +221,75 @@ void put(uint first, uint slot, Seen s, Shape shape, bool as_line, vec2 kept) {
     places[2] = vec4((to_px - side) * clip, stored.y, 1.0);
     places[3] = vec4((to_px + side) * clip, stored.y, 1.0);
   }
-  drawn[first] = RainCorner(places[0], line, vec4(0.0), s.ends_px);
-  drawn[first + 1u] = RainCorner(places[1], uintBitsToFloat(told), vec4(1.0 / depths_m.x, float(s.solid), 0.0, 0.0), vec4(float(slot), depths_m, 0.0));
+  drawn[first] = RainCorner(places[0], line);
+  drawn[first + 1u] = RainCorner(places[1], uintBitsToFloat(told));
+  told_of[first] = s.ends_px;
+  told_of[first + 1u] = vec4(float(slot), depths_m, float(s.solid));
   if (as_line) return;
   drawn[first + 2u].place = places[2];
   drawn[first + 3u].place = places[3];
 }
 
-// Of the bits: how many are set, and how many before that of `lane`.
-uvec2 countBits(bool lines, uint lane) {
-  uvec2 count = uvec2(0u);
-  for (uint i = 0u; i < kRainDrawnGroup / 32u; ++i) {
-    uint bits = lines ? line_bits[i] : rectangle_bits[i];
-    count.x += uint(bitCount(bits));
-    if (i == lane / 32u) bits &= (1u << (lane % 32u)) - 1u;
-    if (i <= lane / 32u) count.y += uint(bitCount(bits));
+// How many lanes of each sort but kNone there are before this one, and in all. `turn` goes up by one from call to call.
+void countSorts(uint sort, uint turn, out uvec3 before, out uvec3 all_lanes) {
+  uint lane = gl_LocalInvocationIndex, now = turn % 3u * 3u * kWords, next = (turn + 1u) % 3u * 3u * kWords, bit = 1u << (lane % 32u);
+  if (lane < 3u * kWords) sort_bits[next + lane] = 0u;
+  if (sort != kNone) atomicOr(sort_bits[now + (sort - 1u) * kWords + lane / 32u], bit);
+  barrier();
+  before = all_lanes = uvec3(0u);
+  for (uint i = 0u; i < kWords; ++i) {
+    uvec3 bits = uvec3(sort_bits[now + i], sort_bits[now + kWords + i], sort_bits[now + 2u * kWords + i]);
+    all_lanes += uvec3(bitCount(bits));
+    if (i == lane / 32u) bits &= bit - 1u;
+    if (i <= lane / 32u) before += uvec3(bitCount(bits));
   }
-  return count;
+}
+
+// Sifts slots from `first` on: how many may hold streaks in the picture, which are then in near_picture.
+uint sift(uint first, inout uint turn) {
+  uint found = 0u;
+  for (uint round = 0u; round < kRounds; ++round) {
+    uint slot = first + round * kLanes + gl_LocalInvocationIndex;
+    bool near = slot < slot_end && mayBeSeen(slot);
+    uvec3 before, all_lanes;
+    countSorts(near ? kThinLine : kNone, turn++, before, all_lanes);
+    if (near) near_picture[found + before.x] = slot;
+    found += all_lanes.x;
+  }
+  barrier();
+  return found;
 }
 
 void main() {
-  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, slot = gl_GlobalInvocationID.x;
-  if (lane < kRainDrawnGroup / 32u) line_bits[lane] = rectangle_bits[lane] = 0u;
+  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, turn = 0u;
+  if (lane < 3u * kWords) sort_bits[lane] = 0u;
+  uint fresh_end = brings_records ? starts[group + 1u] : 0u;
+  for (uint i = brings_records ? starts[group] + lane : 0u; i < fresh_end; i += kLanes) records[slots[i]] = fresh[i];
+  memoryBarrierBuffer();
   barrier();
-  Seen result;
-  bool seen = seenOf(min(slot, slot_end - 1u), result) && slot < slot_end;
-  Shape shape = shapeOf(result);
-  vec2 kept = inPicture(shape.ends_px);
-  bool as_line = fitsLine(shape, kept);
-  uint bit = 1u << (lane % 32u);
-  if (seen && as_line) atomicOr(line_bits[lane / 32u], bit);
-  if (seen && !as_line) atomicOr(rectangle_bits[lane / 32u], bit);
-  barrier();
-  uvec2 lines = countBits(true, lane), rectangles = countBits(false, lane);
-  uint begin = 4u * group * kRainDrawnGroup, end = begin + 4u * kRainDrawnGroup;
-  if (seen) put(as_line ? begin + 2u * lines.y : end - 4u * (rectangles.y + 1u), slot, result, shape, as_line, kept);
+  uint first_slot = group * group_parts * kRainPart;
+  uint begin = kRainSlotCorners * first_slot, end = begin + 4u * group_parts * kRainPart;
+  uvec3 done = uvec3(0u);
+  for (uint part = 0u; part < group_parts; ++part) {
+    uint found = sift(first_slot + part * kRainPart, turn);
+    for (uint from = 0u; from < found; from += kLanes) {
+      uint place = from + lane, slot = near_picture[min(place, found - 1u)];
+      Seen result;
+      bool seen = seenOf(slot, result) && place < found;
+      Shape shape = shapeOf(result);
+      vec2 kept = inPicture(shape.ends_px);
+      uint sort = seen ? sortOf(shape, kept) : kNone;
+      uvec3 before, all_lanes;
+      countSorts(sort, turn++, before, all_lanes);
+      before += done;
+      uint corner = sort == kThinLine ? begin + 2u * before.x : sort == kLine ? end + 2u * before.y : end - 4u * (before.z + 1u);
+      if (seen) put(corner, slot, result, shape, sort != kRectangle, kept);
+      done += all_lanes;
+    }
+    barrier();
+  }
   if (lane > 0u) return;
-  commands[group] = RainCommand(6u * rectangles.x, 1u, 0u, end - 4u * rectangles.x, 0u);
-  line_commands[group] = RainLineCommand(2u * lines.x, 1u, begin, 0u);
+  commands[group] = RainCommand(6u * done.z, 1u, 0u, end - 4u * done.z, 0u);
+  line_commands[2u * group] = RainLineCommand(2u * done.x, 1u, begin, 0u);
+  line_commands[2u * group + 1u] = RainLineCommand(2u * done.y, 1u, end, 0u);
 }

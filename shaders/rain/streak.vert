@@ -3,7 +3,7 @@
 layout(location = 0) in vec4 corner_place;
 layout(location = 1) in vec4 corner_line;
 layout(location = 2) in vec4 next_look;
-layout(location = 3) in vec2 next_depth_solid;
+layout(location = 3) in vec4 next_told;
 layout(location = 4) in vec4 corner_told;
 
 #define FROM out
@@ -16,10 +16,10 @@ void main() {
   streak_line = corner_line;
   streak_look = floatBitsToUint(next_look);
 #ifdef SOFT_DEPTH
-  streak_per_depth = next_depth_solid.x;
+  streak_per_depth = 1.0 / next_told.y;
 #endif
 #ifdef SOLIDS
-  streak_solid = next_depth_solid.y;
+  streak_solid = next_told.w;
 #endif
   fed_back = corner_told;
 }

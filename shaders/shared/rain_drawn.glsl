@@ -10,9 +10,13 @@
 #include "shared/rain_drop.glsl"
 RG_SHARED_BEGIN
 
-RG_CONST uint kRainDrawnGroup = 1024u;  // slots a workgroup looks at, and one draw command draws: each costs software GL some 10 us
+// Slots are worked through in parts of so many, and a workgroup takes one part or several: each of its draw commands costs software GL's calling
+// thread some 5 us.
+RG_CONST uint kRainPart = 1024u;
 
-// On software GL a streak is drawn as a line as long as one so wide covers it, else as a rectangle: a line takes half the vertices and setup.
+// On software GL a streak is drawn as a line as long as one so wide covers it, else as a rectangle: a line takes half the vertices and setup. Where
+// a thin line covers it, fewer pixels are worked out in vain.
+RG_CONST float kRainThinLine_px = 2.0f;
 RG_CONST float kRainLine_px = 4.0f;
 
 // A corner of a streak. Two are a line: where it begins and where it ends. Four are a rectangle: both at its beginning, then both at its end. The
@@ -20,10 +24,12 @@ RG_CONST float kRainLine_px = 4.0f;
 struct RainCorner {
   vec4 place;  // in clip space
   vec4 a;      // of the first corner its streak_line, of the second its streak_look (streak_told.glsl)
-  vec4 b;      // of the second corner 1 / depth along the view where the streak begins, 1/m (x); rainSolidCode (y)
-  vec4 told;   // for tests: where the streak begins (xy) and ends (zw), px from the viewport's middle; the drop's slot (x), and the ends' depths, m
 };
-RG_SIZE(RainCorner, 64)
+RG_SIZE(RainCorner, 32)
+// Beside it, in a buffer of its own, as it is rarely wanted: of the first corner where the streak begins (xy) and ends (zw), px from the viewport's
+// middle; of the second the drop's slot (x), the ends' depths along the view, m (yz), and rainSolidCode (w).
+
+RG_CONST uint kRainSlotCorners = 6u;  // room for each slot
 
 // As glMultiDrawElementsIndirect reads it.
 struct RainCommand {
@@ -35,7 +41,7 @@ struct RainCommand {
 };
 RG_SIZE(RainCommand, 20)
 
-// As glMultiDrawArraysIndirect reads it.
+// As glMultiDrawArraysIndirect reads it; a workgroup's two stand side by side: thin lines, other lines.
 struct RainLineCommand {
   uint count;
   uint instances;

@@ -12,16 +12,16 @@ namespace oracle {
 namespace {
 
 constexpr int kWidth_px = 128, kHeight_px = 72;  // where segments end does not depend on it
-constexpr const char* kFedBack = "fed_back";     // RainCorner's `told`
+constexpr const char* kFedBack = "fed_back";     // what is told beside a RainCorner
 // What is fed back of a streak: a line's two corners, or those of a rectangle's two triangles, the streak's
 // first two before the others.
-enum Shape { kLine, kRectangle };
-constexpr size_t kCorners[] = {2, 6};
+enum Shape { kThinLine, kLine, kRectangle };
+constexpr size_t kCorners[] = {2, 2, 6};
 
 // GL's functions take no pointer of ours; these are the draw call's that is under way.
 const GladGLContext* true_gl = nullptr;
-GLuint corners_buffers[2] = {};
-GLuint primitives_queries[2] = {};
+GLuint corners_buffers[3] = {};
+GLuint primitives_queries[3] = {};
 
 // Links the program in use once more, so that it gives out its segments' ends.
 void askForEnds(const GladGLContext& gl) {
@@ -45,9 +45,10 @@ void feedBack(Shape shape, GLenum mode, F&& draw) {
   true_gl->EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
 }
 
-// In the place of those of the plugin.
+// In the place of those of the plugin. Commands of thin lines lead the buffer.
 void drawLines(GLenum mode, const void* commands, GLsizei count, GLsizei stride) {
-  feedBack(kLine, mode, [&] { true_gl->MultiDrawArraysIndirect(mode, commands, count, stride); });
+  feedBack(commands == nullptr ? kThinLine : kLine, mode,
+           [&] { true_gl->MultiDrawArraysIndirect(mode, commands, count, stride); });
 }
 void drawRectangles(GLenum mode, GLenum type, const void* commands, GLsizei count, GLsizei stride) {
   feedBack(kRectangle, mode,
@@ -69,28 +70,29 @@ struct DrawnStreaks::Gpu {
   Gpu(uint32_t capacity_drops, bool read_back)
       : plugins(rg::gl::loadContext(rg::test::GlContext::getProc, nullptr)),
         renderer(*plugins, capacity_drops),
+        thin_lines(context.gl, capacity_drops * kCorners[kThinLine] * sizeof(glm::vec4)),
         lines(context.gl, capacity_drops * kCorners[kLine] * sizeof(glm::vec4)),
         rectangles(context.gl, capacity_drops * kCorners[kRectangle] * sizeof(glm::vec4)),
         colour(context.gl, GL_RGBA32F, kWidth_px, kHeight_px),
         target(context.gl, {&colour}) {
-    context.gl.GenQueries(2, primitives);
+    context.gl.GenQueries(3, primitives);
     if (!read_back) return;
     plugins->gl.MultiDrawArraysIndirect = drawLines;
     plugins->gl.MultiDrawElementsIndirect = drawRectangles;
   }
-  ~Gpu() { context.gl.DeleteQueries(2, primitives); }
+  ~Gpu() { context.gl.DeleteQueries(3, primitives); }
   Gpu(const Gpu&) = delete;
   Gpu& operator=(const Gpu&) = delete;
 
   // Of each streak the first two corners' words.
   std::vector<std::array<glm::vec4, 2>> fedBack() const {
     std::vector<std::array<glm::vec4, 2>> streaks;
-    for (const Shape shape : {kLine, kRectangle}) {
+    const rg::gl::Buffer* buffers[] = {&thin_lines, &lines, &rectangles};
+    for (const Shape shape : {kThinLine, kLine, kRectangle}) {
       GLuint count = 0;
       context.gl.GetQueryObjectuiv(primitives[shape], GL_QUERY_RESULT, &count);
-      std::vector<glm::vec4> all(size_t{count} * (shape == kLine ? 2 : 3));
-      if (!all.empty())
-        (shape == kLine ? lines : rectangles).read(0, all.data(), all.size() * sizeof(glm::vec4));
+      std::vector<glm::vec4> all(size_t{count} * (shape == kRectangle ? 3 : 2));
+      if (!all.empty()) buffers[shape]->read(0, all.data(), all.size() * sizeof(glm::vec4));
       for (size_t i = 0; i < all.size(); i += kCorners[shape]) streaks.push_back({all[i], all[i + 1]});
     }
     return streaks;
@@ -99,8 +101,8 @@ struct DrawnStreaks::Gpu {
   rg::test::GlContext context;
   std::unique_ptr<rg::gl::Context> plugins;  // the same context, as the plugin sees it
   rg::rain::RainRenderer renderer;
-  rg::gl::Buffer lines, rectangles;
-  GLuint primitives[2] = {};
+  rg::gl::Buffer thin_lines, lines, rectangles;
+  GLuint primitives[3] = {};
   rg::gl::Texture2D colour;
   rg::gl::Framebuffer target;
 };
@@ -114,9 +116,10 @@ std::vector<Segment> DrawnStreaks::draw(rg::rain::Upload& upload, const rg::View
   Gpu& g = *gpu_;
   g.context.makeCurrent();
   true_gl = &g.context.gl;
+  corners_buffers[kThinLine] = g.thin_lines.name();
   corners_buffers[kLine] = g.lines.name();
   corners_buffers[kRectangle] = g.rectangles.name();
-  std::copy_n(g.primitives, 2, primitives_queries);
+  std::copy_n(g.primitives, 3, primitives_queries);
   const uint32_t slot_end = upload.picture.slot_end;
   g.renderer.upload(upload);
   g.colour.zero();

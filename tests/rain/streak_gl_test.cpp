@@ -184,6 +184,26 @@ TEST_F(StreakPicture, isTheSameForTheSameDrops) {
   EXPECT_EQ(rg::test::greatestDifference(draw(rain, {}), draw(rain, {})), 0.0f);
 }
 
+// New records wait for the next draw, or for the next upload where nothing was drawn.
+TEST_F(StreakPicture, isTheSameHoweverItsDropsCame) {
+  Rain rain(50.0, 10.0);
+  const gl::StateGuard guard(*loaded, kTouches);
+  RainRenderer by_ticks(*loaded, 200000), at_once(*loaded, 200000);
+  by_ticks.upload(rain.upload);
+  const ViewState& view = rain.scene.views[0];
+  for (const bool drawn : {false, false, true, true, false}) {
+    for (int i = 0; i < 3; ++i) rain.tick();
+    rain.field.publish(rain.upload);
+    by_ticks.upload(rain.upload);
+    if (drawn) draw(by_ticks, view, rain.lastTime_ns(), {});
+  }
+  rain.field.publishAll(rain.upload);
+  at_once.upload(rain.upload);
+  const auto of_ticks = draw(by_ticks, view, rain.lastTime_ns(), {});
+  EXPECT_EQ(rg::test::greatestDifference(of_ticks, draw(at_once, view, rain.lastTime_ns(), {})), 0.0f);
+  EXPECT_GT(addedOverGround(of_ticks), 1e-5);
+}
+
 TEST_F(StreakPicture, isHiddenByWhatIsBeforeIt) {
   const Rain rain(25.0, 0.0);
   for (const bool soft : {true, false}) {

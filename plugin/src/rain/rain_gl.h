@@ -18,12 +18,13 @@ class RainRenderer {
   RainRenderer(const RainRenderer&) = delete;
   RainRenderer& operator=(const RainRenderer&) = delete;
 
-  // Takes over what is new and empties `upload`. Touches: program, buffer bindings GL_SHADER_STORAGE_BUFFER 0
-  // .. 2.
+  // Takes over what is new and empties `upload`. Where uploadBinds says so it touches: program, buffer
+  // bindings GL_SHADER_STORAGE_BUFFER 0 .. 2; else nothing that is not the plugin's own.
   void upload(Upload& upload);
+  bool uploadBinds(const Upload& upload) const;
 
   // Draws the drops as of the last upload, placed at draw.time_ns. Call within a state guard; touches:
-  // program, vertex array, uniform buffers 0 .. 2, buffer bindings GL_SHADER_STORAGE_BUFFER 0 .. 3 and
+  // program, vertex array, uniform buffers 0 .. 2, buffer bindings GL_SHADER_STORAGE_BUFFER 0 .. 7 and
   // GL_DRAW_INDIRECT_BUFFER, texture units 0 .. 2 with their samplers, draw framebuffer, viewport, blend,
   // depth, raster state. Twice the same draw gives the same picture.
   void draw(const RainDraw& draw);
