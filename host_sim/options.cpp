@@ -54,7 +54,7 @@ double parseUpdateHz(const std::string& text, bool& irregular) {
 Options parseOptions(int argc, const char* const* argv, bool& done) {
   Options o;
   std::string size = "1280x720", shots, update_hz;
-  double seconds = 0.0;
+  double seconds = 0.0, save_at = 0.0;
   uint64_t seed = 0;
   CLI::App app{
       "Drives a glTF car through the rain: in a window, or headless to pictures, video and a report.",
@@ -84,6 +84,13 @@ Options parseOptions(int argc, const char* const* argv, bool& done) {
   app.add_option("--video", o.video, "Write an mp4 (needs the ffmpeg program)");
   app.add_option("--out", o.out, "Folder for shots and report.json")->capture_default_str();
   app.add_option("--budget", o.budget, "Hold the run to this budget file; exit code 4 when over");
+  app.add_option(
+      "--save", o.save,
+      "Write the state at the end of the run, water and all, to a file that --restore begins from");
+  auto* save_at_option = app.add_option("--save-at", save_at, "Second at which --save does so");
+  app.add_option("--restore", o.restore,
+                 "Begin at the moment and in the state of a file that --save or F5 wrote: the same scenario, "
+                 "car, seed and version; --set may change what comes");
   app.add_option("--update-hz", update_hz,
                  "How time is cut into plugin updates: a rate, or irregular; does not change the state");
   app.add_flag("--gl-debug", o.gl_debug,
@@ -107,6 +114,11 @@ Options parseOptions(int argc, const char* const* argv, bool& done) {
     o.seconds = seconds;
   }
   if (*seed_option) o.seed = seed;
+  if (*save_at_option) {
+    if (o.save.empty()) throw InputError("--save-at needs --save");
+    if (!(save_at >= 0.0 && save_at <= 36000.0)) throw InputError("--save-at must be 0 .. 36000");
+    o.save_at_s = save_at;
+  }
   return o;
 }
 

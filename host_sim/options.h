@@ -13,6 +13,8 @@ namespace host {
 struct Options {
   std::string scenario = "drive";
   std::filesystem::path environment, drops, car, road, video, out = "out", budget;
+  std::filesystem::path save, restore;
+  std::optional<double> save_at_s;  // none: at the end
   bool headless = false;
   bool gl_debug = false;
   glm::ivec2 size_px{1280, 720};

@@ -220,6 +220,19 @@ void RainPlugin::setParameter(const std::string& name, double value) {
   check(api_->set_parameter(instance_, name.c_str(), value), ("parameter " + name).c_str());
 }
 
+std::vector<unsigned char> RainPlugin::save() {
+  size_t size = 0;
+  check(api_->save(instance_, nullptr, &size), "save");
+  std::vector<unsigned char> state(size);
+  check(api_->save(instance_, state.data(), &size), "save");
+  return state;
+}
+
+void RainPlugin::restore(const std::vector<unsigned char>& state) {
+  check(api_->restore(instance_, state.data(), state.size()), "restore");
+  waiting_.clear();
+}
+
 void RainPlugin::prewarm(double seconds) { check(api_->prewarm(instance_, seconds), "prewarm"); }
 
 void RainPlugin::update(int64_t time_ns) {

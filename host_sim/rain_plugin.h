@@ -57,6 +57,9 @@ class RainPlugin {
   void addTraffic(const CarView& car, size_t count);
   // Shelter of the road.
   void addRoad(const RoadView& road);
+  // The plugin's whole state, and going on from one. restore throws PluginError where it is refused.
+  std::vector<unsigned char> save();
+  void restore(const std::vector<unsigned char>& state);
   void setParameter(const std::string& name, double value);
   void prewarm(double seconds);
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 
 #include "budget.h"
 #include "image/png.h"
@@ -26,8 +27,12 @@ void showProgress(double time_s, double seconds, uint64_t frames, double wall_s)
 
 int runHeadless(const Options& options) {
   const Scenario scenario = chosenScenario(options);
+  std::optional<SavedRun> saved;
+  if (!options.restore.empty()) saved = readRun(options.restore, scenario);
+  const std::vector<Event> events = schedule(options, scenario.seconds, saved ? saved->time_ns : 0);
   Models models = loadModels(scenario);
   makeOutFolder(options.out);
+  if (!options.save.empty()) requireWritable(options.save);
   const auto context = makeHeadlessContext(options.gl_debug);
   Stage stage(options, scenario, std::move(models), *context);
   const Budget budget = options.budget.empty()
@@ -45,9 +50,13 @@ int runHeadless(const Options& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   Report report;
-  stage.prewarm();
-  for (const Event& e : schedule(options, scenario.seconds)) {
+  if (saved)
+    restoreFrom(stage, *saved, options.restore);
+  else
+    stage.prewarm();
+  for (const Event& e : events) {
     if (e.update) stage.update(e.time_ns);
+    if (e.save) saveTo(stage, e.time_ns, options.save);
     if (!e.draw) continue;
     const bool single = !e.shot.empty() && options.video.empty();
     stage.draw(e.time_ns, target, picture.framebuffer(), single ? 6 : 1);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE  // GL comes through glad
 #include <GLFW/glfw3.h>
@@ -31,6 +32,7 @@ void refuseWhatNeedsNoWindow(const Options& options) {
   const char* option = !options.video.empty()     ? "--video"
                        : !options.shots_s.empty() ? "--shots"
                        : !options.budget.empty()  ? "--budget"
+                       : options.save_at_s        ? "--save-at"
                                                   : nullptr;
   if (option)
     throw InputError(std::string(option) +
@@ -41,6 +43,7 @@ class WindowRun {
  public:
   WindowRun(const Options& options, const Scenario& scenario, Models models)
       : options_(options),
+        scenario_(scenario),
         window_(makeWindow("Rainglass", options.size_px, options.gl_debug)),
         stage_(options, scenario, std::move(models), *window_),
         pilot_(stage_.simulation(), *window_),
@@ -59,9 +62,12 @@ class WindowRun {
   void followSize();
   void show(const char* note);
   void writePicture();
+  void saveOrRestore();
+  void restoreFrom(const std::filesystem::path& file);
   void report(double wall_s);
 
   const Options& options_;
+  const Scenario& scenario_;
   std::unique_ptr<Window> window_;
   Stage stage_;
   Pilot pilot_;
@@ -70,6 +76,7 @@ class WindowRun {
   int64_t time_ns_ = 0;
   uint64_t frames_ = 0;
   double mean_frame_s_ = 0.0;
+  enum class Wanted { nothing, save, restore } wanted_ = Wanted::nothing;
   Clock::time_point before_ = Clock::now();
 };
 
@@ -78,6 +85,10 @@ void WindowRun::listen() {
   on.on_key = [this](int key, bool pressed) {
     if (pressed && key == GLFW_KEY_F1)
       overlay_.toggle();
+    else if (pressed && key == GLFW_KEY_F5)
+      wanted_ = Wanted::save;
+    else if (pressed && key == GLFW_KEY_F9)
+      wanted_ = Wanted::restore;
     else if (pressed)
       pilot_.onKey(key);
   };
@@ -90,9 +101,13 @@ void WindowRun::listen() {
 }
 
 int WindowRun::run() {
-  prewarm();
+  if (options_.restore.empty())
+    prewarm();
+  else
+    restoreFrom(options_.restore);
   const auto begin = before_ = Clock::now();
   drive();
+  if (!options_.save.empty()) saveTo(stage_, time_ns_, options_.save);
   report(secondsSince(begin));
   return 0;
 }
@@ -125,7 +140,27 @@ void WindowRun::drive() {
       time_ns_ += std::min({int64_t{passed_ns}, kLongestStep_ns, end_ns - time_ns_});
       stage_.update(time_ns_);
     }
+    saveOrRestore();
     show(pilot_.paused() ? "paused" : "");
+  }
+}
+
+void WindowRun::restoreFrom(const std::filesystem::path& file) {
+  time_ns_ = host::restoreFrom(stage_, readRun(file, scenario_), file);
+}
+
+// Whatever is wrong with the file, the drive goes on.
+void WindowRun::saveOrRestore() {
+  const Wanted wanted = std::exchange(wanted_, Wanted::nothing);
+  if (wanted == Wanted::nothing) return;
+  const std::filesystem::path file = options_.save.empty() ? options_.out / "saved.run" : options_.save;
+  try {
+    if (wanted == Wanted::save)
+      saveTo(stage_, time_ns_, file);
+    else
+      restoreFrom(file);
+  } catch (const InputError& e) {
+    std::fprintf(stderr, "host_sim: %s\n", e.what());
   }
 }
 
@@ -186,6 +221,7 @@ int runWindow(const Options& options) {
   const Scenario scenario = chosenScenario(options);
   Models models = loadModels(scenario);
   makeOutFolder(options.out);
+  if (!options.save.empty()) requireWritable(options.save);
   for (const KeyHelp& help : kKeyHelp) std::printf("%-12s  %s\n", help.keys, help.effect);
   std::fflush(stdout);
   return WindowRun(options, scenario, std::move(models)).run();

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <map>
 
+#include "scenario.h"
+
 namespace host {
 namespace {
 
@@ -23,7 +25,14 @@ int64_t irregularStep(uint64_t& state) {
 
 }  // namespace
 
-std::vector<Event> schedule(const Options& options, double seconds) {
+std::vector<Event> schedule(const Options& options, double seconds, int64_t begin_ns) {
+  const int64_t first_ns = options.shots_s.empty() ? begin_ns : toNs(options.shots_s.front()),
+                save_ns = toNs(options.save_at_s.value_or(seconds));
+  if (toNs(seconds) < begin_ns || first_ns < begin_ns || (!options.save.empty() && save_ns < begin_ns))
+    throw InputError("--restore: the saved moment, " + std::to_string(static_cast<double>(begin_ns) * 1e-9) +
+                     " s, lies after the end, a shot or --save-at");
+  if (!options.save.empty() && save_ns > toNs(seconds))
+    throw InputError("--save-at lies after the end of the run");
   std::map<int64_t, Event> events;
   const int64_t end_ns = toNs(seconds);
   const auto at = [&](int64_t time_ns) -> Event& {
@@ -52,6 +61,8 @@ std::vector<Event> schedule(const Options& options, double seconds) {
                                   : toNs(static_cast<double>(k) / options.update_hz);
   }
   at(end_ns).update = true;
+  if (!options.save.empty()) at(save_ns).update = at(save_ns).save = true;
+  events.erase(events.begin(), events.lower_bound(begin_ns));
   std::vector<Event> list;
   list.reserve(events.size());
   for (auto& [time, event] : events) list.push_back(std::move(event));

@@ -14,10 +14,12 @@ struct Event {
   bool update = false;
   bool draw = false;
   std::string shot;  // file name, or empty
+  bool save = false;
 };
 
 // Ascending. Pictures at k / fps where a video or a budget wants them, or where no shots are asked for; the
-// shots; an update before each of them, or at the asked rate; and a last update at the end.
-std::vector<Event> schedule(const Options& options, double seconds);
+// shots; an update before each of them, or at the asked rate; and a last update at the end. From `begin_ns`
+// on: throws InputError where a shot or the saving lies before it, or the end does.
+std::vector<Event> schedule(const Options& options, double seconds, int64_t begin_ns = 0);
 
 }  // namespace host

@@ -92,6 +92,15 @@ Weather Simulation::weather() const {
   return w;
 }
 
+void Simulation::resume() {
+  knots_.clear();
+  cut_ = false;
+  if (overrides.controls)
+    driver_.takeOver();
+  else if (driver_.byHand())
+    driver_.giveBack();
+}
+
 void Simulation::advance(int64_t time_ns) {
   const int64_t until_ns = pluginTime(time_ns);
   if (tick_ < 0) {

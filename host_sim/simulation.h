@@ -88,6 +88,20 @@ class Simulation {
   std::vector<std::string> cameras() const { return cameraNames(car_); }
   double timeS() const;
 
+  // What a saved run holds of it, between two of the plugin's updates.
+  template <class Fields>
+  void visit(Fields& f) {
+    f.part("driver", driver_), f.part("motor", motor_), f.part("sensor", sensor_);
+    f("prewarm_ns", prewarm_ns_, int64_t{0}, int64_t{3'600'000'000'000});
+    f("tick", tick_, int64_t{-1}, int64_t{1} << 32), f("demister", demister_, 0.0, 1.0);
+    f("water_on_road_mm", water_on_road_mm_, 0.0, 10.0);
+    f("log_luminance", log_luminance_, -100.0, 100.0);
+    f("day_log_luminance", day_log_luminance_, -100.0, 100.0);
+    f("adapted", adapted_), f("camera", camera_before_);
+  }
+  // After its fields have been read: who has the wheel now keeps it.
+  void resume();
+
  private:
   void tick();
   void tickWipers();

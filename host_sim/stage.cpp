@@ -102,15 +102,44 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   plugin_->addRoad(road_);
   plugin_->addCar(car_);
   plugin_->addTraffic(car_, scenario.traffic.size());
-  for (const auto& [name, value] : scenario.parameters) {
+  setParameters();
+  simulation_ = std::make_unique<Simulation>(scenario, car_, road_, *plugin_, options.size_px);
+  simulation_->adapting_luminance = [this](glm::dvec3 eye_m) { return renderer_->adaptingLuminance(eye_m); };
+}
+
+void Stage::setParameters() {
+  for (const auto& [name, value] : scenario_.parameters) {
     try {
       plugin_->setParameter(name, value);
     } catch (const PluginError& e) {
       throw InputError(std::string("scenario's ") + e.what());
     }
   }
-  simulation_ = std::make_unique<Simulation>(scenario, car_, road_, *plugin_, options.size_px);
-  simulation_->adapting_luminance = [this](glm::dvec3 eye_m) { return renderer_->adaptingLuminance(eye_m); };
+}
+
+SavedRun Stage::save(int64_t time_ns) {
+  SavedRun saved;
+  saved.scenario = scenario_.name;
+  saved.seed = scenario_.seed;
+  saved.time_ns = time_ns;
+  saved.simulation = fieldsOf(*simulation_);
+  saved.plugin = plugin_->save();
+  return saved;
+}
+
+int64_t Stage::restore(const SavedRun& saved) {
+  const nlohmann::json before = fieldsOf(*simulation_);
+  setFields(*simulation_, saved.simulation);
+  try {
+    plugin_->restore(saved.plugin);
+  } catch (const PluginError& e) {
+    setFields(*simulation_, before);
+    throw InputError(e.what());
+  }
+  setParameters();  // the scenario's, which --set may have changed
+  simulation_->resume();
+  renderer_->beginFrame(sky(saved.time_ns), simulation_->eyeAt(saved.time_ns).position_m);
+  return saved.time_ns;
 }
 
 void Stage::addRoad() {

@@ -10,6 +10,7 @@
 #include "render/renderer.h"
 #include "render/target.h"
 #include "report.h"
+#include "saved_run.h"
 #include "scenario.h"
 #include "scene/scene.h"
 #include "scene/views.h"
@@ -45,6 +46,11 @@ class Stage {
   void draw(int64_t time_ns, const Target& target, uint32_t framebuffer, int captures = 1);
   void fillReport(Report& report);
 
+  // Between two updates, at a moment of the scenario's clock; see saved_run.h. restore returns the moment,
+  // and throws InputError where the plugin refuses it: then it is as before.
+  SavedRun save(int64_t time_ns);
+  int64_t restore(const SavedRun& saved);
+
   Simulation& simulation() { return *simulation_; }
   RainPlugin& plugin() { return *plugin_; }
   Renderer& renderer() { return *renderer_; }
@@ -55,6 +61,7 @@ class Stage {
   Sky sky(int64_t time_ns) const;
   glm::vec3 toSun() const;
   void addRoad();
+  void setParameters();
 
   const Scenario& scenario_;
   Context& context_;

@@ -56,6 +56,18 @@ class Driver {
   // The car `seconds` after the last tick, for pictures between ticks.
   CarState at(double seconds) const;
 
+  // What a saved run holds of it; see saved_fields.h.
+  template <class Fields>
+  void visit(Fields& f) {
+    f("next_stop", next_stop_, 0, plan_.stops.size());
+    f("waiting_s", waiting_s_), f("heading_rad", heading_rad_), f("pitch_rad", pitch_rad_);
+    f("roll_rad", roll_rad_), f("by_hand", by_hand_);
+    f("position_m", state_.position_m), f("orientation", state_.orientation);
+    f("velocity_mps", state_.velocity_mps), f("angular_velocity_radps", state_.angular_velocity_radps);
+    f("speed_mps", state_.speed_mps), f("acceleration_mps2", state_.acceleration_mps2);
+    f("steering_rad", state_.steering_rad), f("way_m", state_.way_m), f("driven_m", state_.driven_m);
+  }
+
  private:
   double wantedSpeed(double way_m) const;
   void planSpeeds();

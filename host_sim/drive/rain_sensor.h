@@ -15,6 +15,12 @@ class RainSensor {
   double pause_s() const;
   double rate_mm_h() const { return rate_mm_h_; }  // on the glass, smoothed
 
+  template <class Fields>
+  void visit(Fields& f) {
+    f("begun", begun_), f("caught_m3", caught_m3_), f("time_s", time_s_), f("rate_mm_h", rate_mm_h_);
+    f("mode", mode_, WiperMode::off, WiperMode::fast);
+  }
+
  private:
   bool begun_ = false;
   double caught_m3_ = 0.0, time_s_ = 0.0, rate_mm_h_ = 0.0;

@@ -39,6 +39,13 @@ class WiperMotor {
   const std::vector<WiperKnotShare>& tick();
   double share() const { return share_; }
 
+  template <class Fields>
+  void visit(Fields& f) {
+    f("wanted", wanted_, WiperMode::off, WiperMode::fast), f("wanted_pause_s", wanted_pause_s_);
+    f("owed", owed_, 0, 1000), f("running", running_), f("phase", phase_, 0.0, 1.0);
+    f("cycle_s", cycle_s_, 0.1, 100.0), f("paused_s", paused_s_), f("share", share_, 0.0, 1.0);
+  }
+
  private:
   bool starts() const;
 

@@ -29,6 +29,7 @@ inline constexpr KeyHelp kKeyHelp[] = {
     {"P", "pause"},
     {"F1", "this panel, with sliders"},
     {"F2", "picture to the --out folder"},
+    {"F5, F9", "save the moment to saved.run in the --out folder (or --save), go back to it"},
     {"Esc", "quit"},
 };
 

@@ -19,9 +19,10 @@ void expectRefused(const std::string& arguments, int exit_code, const std::strin
 TEST(CommandLine, helpNamesEveryOption) {
   const Outcome run = runHost("--help");
   EXPECT_EQ(run.exit_code, 0);
-  for (const char* option : {"--scenario", "--environment", "--drops", "--headless", "--size", "--fps",
-                             "--seconds", "--seed", "--car", "--road", "--set", "--camera", "--shots",
-                             "--video", "--out", "--budget", "--update-hz", "--gl-debug"}) {
+  for (const char* option :
+       {"--scenario", "--environment", "--drops",     "--headless", "--size",   "--fps",     "--seconds",
+        "--seed",     "--car",         "--road",      "--set",      "--camera", "--shots",   "--video",
+        "--out",      "--budget",      "--update-hz", "--gl-debug", "--save",   "--save-at", "--restore"}) {
     EXPECT_NE(run.out.find(option), std::string::npos) << option;
   }
 }
