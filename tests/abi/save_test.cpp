@@ -120,14 +120,15 @@ TEST_F(Save, goesOnAsIfNothingHadHappened) {
   }
 }
 
-// A washed pane alone, when no more comes onto it and no blade stirs it: what runs down still is told by
-// nothing but the film's own state.
+// A washed pane of film alone, when no more comes onto it and no blade stirs it: what runs down still is told
+// by nothing but the film's own state.
 TEST_F(Save, waterRunsOnDown) {
   const auto washed = scene();
   washed->rain_mm_h = washed->snow_mm_h = washed->hail_mm_h = 0.0;
   washed->expect(washed->api.remove_pane(washed->instance, kWindow));
   washed->expect(washed->api.remove_wiper(washed->instance, kWiper));
-  drive(*washed, 36, false);  // the jet is done after 32
+  washed->expect(washed->setPane(0));  // no drops
+  drive(*washed, 36, false);           // the jet is done after 32
   const Bytes saved = washed->save();
   const int64_t steps = washed->steps;
   const auto goOnDown = [&] {
