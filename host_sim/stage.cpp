@@ -128,6 +128,8 @@ SavedRun Stage::save(int64_t time_ns) {
 }
 
 int64_t Stage::restore(const SavedRun& saved) {
+  // The light that the sky lays changes in steps from where it was first laid: as in a run from its beginning.
+  renderer_->beginFrame(sky(0), simulation_->eyeAt(0).position_m);
   const nlohmann::json before = fieldsOf(*simulation_);
   setFields(*simulation_, saved.simulation);
   try {

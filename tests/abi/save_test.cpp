@@ -120,6 +120,34 @@ TEST_F(Save, goesOnAsIfNothingHadHappened) {
   }
 }
 
+// A washed pane of film alone, when no more comes onto it and no blade stirs it: what runs down still is told
+// by nothing but the film's own state.
+TEST_F(Save, waterRunsOnDown) {
+  const auto washed = scene();
+  washed->rain_mm_h = washed->snow_mm_h = washed->hail_mm_h = 0.0;
+  washed->expect(washed->api.remove_pane(washed->instance, kWindow));
+  washed->expect(washed->api.remove_wiper(washed->instance, kWiper));
+  washed->expect(washed->setPane(0));  // no drops
+  drive(*washed, 36, false);           // the jet is done after 32
+  const Bytes saved = washed->save();
+  const int64_t steps = washed->steps;
+  const auto goOnDown = [&] {
+    std::vector<uint64_t> hashes;
+    washed->steps = steps;
+    for (int i = 0; i < 12; ++i) {
+      drive(*washed, 1, false);
+      hashes.push_back(washed->hash());
+    }
+    return hashes;
+  };
+  const double drained_ml = washed->stats(kPane).drained_ml;
+  const std::vector<uint64_t> expected = goOnDown();
+  ASSERT_GT(washed->stats(kPane).drained_ml, drained_ml) << "nothing ran";
+  washed->expect(washed->restore(saved));
+  EXPECT_EQ(goOnDown(), expected);
+  washed->expect(washed->api.detach_gl(washed->instance));
+}
+
 // Without GL there is no film. A state of such an instance goes on without one, or with one that begins dry;
 // one with water on a film wants a GPU to hold it.
 TEST_F(Save, knowsWhetherThereIsAFilm) {

@@ -74,7 +74,7 @@ class SmallScene {
   }
 
   // 0.4 x 0.4 m, upright, 1 m ahead of the car's origin; its outer side looks ahead.
-  rg_result setPane() const {
+  rg_result setPane(uint32_t max_drops = 20000) const {
     const std::array<float, 12> positions{1, 0.2f, 1, 1, -0.2f, 1, 1, -0.2f, 1.4f, 1, 0.2f, 1.4f};
     const std::array<float, 8> uvs{0, 0, 1, 0, 1, 1, 0, 1};
     const std::array<uint32_t, 6> indices{0, 2, 1, 0, 3, 2};
@@ -87,6 +87,7 @@ class SmallScene {
     pane.vertex_count = 4;
     pane.index_count = 6;
     pane.texel_m = 10e-3;
+    pane.max_drops = max_drops;
     return api.set_pane(instance, kPane, &pane);
   }
 
