@@ -100,6 +100,7 @@ TEST_F(Save, goesOnAsIfNothingHadHappened) {
     if (!odd) whole->rain_mm_h = whole->snow_mm_h = whole->hail_mm_h = 0.0;
     const std::vector<Told> expected = goOn(*whole, kAfter);
     ASSERT_GT(expected.back().weather.bounced, 0u) << "no stone bounced";
+    ASSERT_GT(expected.back().panes[1].run_on_ml, 0.0) << "nothing came round the pillar";
     ASSERT_GT(expected.back().panes[0].ridge_ml, 0.0) << "nothing is wiped";
     ASSERT_GT(expected.back().panes[1].drained_ml, 0.0) << "the window slid without stripping water";
     ASSERT_NE(expected.back().state, then);
@@ -316,7 +317,7 @@ TEST_F(BadState, withBytesFlippedDoesNoHarm) {
   std::mt19937 random(7);
   const size_t body = Layout(saved).body;
   int refused = 0;
-  constexpr int kTimes = 60;
+  constexpr int kTimes = 24;
   for (int i = 0; i < kTimes; ++i) {
     Bytes bad = saved;
     for (int k = 0; k < 1 + i % 3; ++k) {
@@ -340,7 +341,7 @@ TEST_F(BadState, withAbsurdNumbersDoesNoHarm) {
   const size_t body = Layout(saved).body;
   constexpr std::array<uint64_t, 4> kAbsurd{0x7FF8000000000000u, 0x7FF0000000000000u, 0xFFFFFFFFFFFFFFFFu,
                                             0x7FFFFFFFFFFFFFFFu};
-  for (size_t i = 0; i < 32; ++i) {
+  for (size_t i = 0; i < 16; ++i) {
     Bytes bad = saved;
     const size_t at = body + random() % (bad.size() - body - 8);
     put(bad, at, kAbsurd[i % kAbsurd.size()]);

@@ -355,7 +355,7 @@ FilmState FilmGl::state() const {
   std::vector<uint32_t> states(tiles_ * kTileFields);
   states_.read(0, states.data(), states.size() * sizeof(uint32_t));
   for (size_t i = 0; i < tiles_; ++i) {
-    const uint32_t stirs = states[i * kTileFields], awake = states[i * kTileFields + 1];
+    const uint32_t stirs = states[i * kTileFields + turn_], awake = states[i * kTileFields + kTileAwake];
     out.tiles[i] =
         static_cast<uint8_t>((stirs != 0 ? FilmState::kStirs : 0) | (awake != 0 ? FilmState::kAwake : 0));
   }
@@ -388,7 +388,7 @@ std::vector<T> FilmGl::inTiles(const std::vector<T>& texels, T off) const {
 
 // As the step that came before left them: of its report only what lies there is asked for again.
 std::vector<uint32_t> FilmGl::tileStates(const FilmState& state) const {
-  constexpr size_t kFilmLow = 3 + 2, kFilmHigh = 3 + 3, kBeads = 3 + 7;  // of TileState, in its last report
+  constexpr size_t kFilmLow = kTileLast + 2, kFilmHigh = kTileLast + 3, kBeads = kTileLast + 7;
   std::vector<uint32_t> states(tiles_ * kTileFields, 0);
   const glm::ivec2 size = map_.grid().size;
   for (int i = 0; i < map_.texelCount(); ++i) {
@@ -401,8 +401,8 @@ std::vector<uint32_t> FilmGl::tileStates(const FilmState& state) const {
     of_tile[kBeads] += state.beads[k] & 0xffffffu;
   }
   for (size_t t = 0; t < tiles_; ++t) {
-    states[t * kTileFields] = (state.tiles[t] & FilmState::kStirs) != 0 ? 1 : 0;
-    states[t * kTileFields + 1] = (state.tiles[t] & FilmState::kAwake) != 0 ? 1 : 0;
+    states[t * kTileFields + turn_] = (state.tiles[t] & FilmState::kStirs) != 0 ? 1 : 0;
+    states[t * kTileFields + kTileAwake] = (state.tiles[t] & FilmState::kAwake) != 0 ? 1 : 0;
   }
   return states;
 }
