@@ -185,7 +185,9 @@ class Copy {
   static std::string_view source(std::string_view path) {
     return path == "copy.comp" ? kText : gl::shaderSource(path);
   }
+  // Before any branch: a file is put in where it is first named, whatever becomes of that branch.
   static constexpr std::string_view kText = R"(
+#include "shared/glass_types.glsl"
 #ifdef RG_SOFTWARE_GL
 #include "glass/film_lists.glsl"
 layout(local_size_x = kGroup) in;
@@ -209,7 +211,6 @@ void main() {
   } while (++row < kWalkRows);
 }
 #else
-#include "shared/glass_types.glsl"
 layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
 layout(std430, binding = 0) readonly buffer From { int from[]; };
 layout(std430, binding = 1) readonly buffer FromBeads { int from_beads[]; };

@@ -194,7 +194,8 @@ void Frame::stepGpu() {
   // Buffers are written through direct state access; only kernels and new objects need state of the host's.
   const bool binds = !panes_.empty() || !gl.panes.empty() || gl.rain->uploadBinds(upload_) ||
                      gl.pattern_version != pattern_version_;
-  const gl::StateGuard guarded = gl.guard(binds ? kStepTouches : 0);
+  // The timers' queries want no query buffer bound.
+  const gl::StateGuard guarded = gl.guard(binds ? kStepTouches : uint32_t{RG_TOUCHED_BUFFERS});
   timers_.collect();
   {
     const gl::ScopedStage timed(timers_, stage_.rain_upload);

@@ -62,7 +62,10 @@ void dry(int k) {
   for (int i = firsts[k] + lane(); changed != 0 && i < firsts[k + 1]; i += kTileTexels) changeHere(i);
   barrier();
   FilmTexel left = dried(film_here[lane()], beadsOf(beads_here[lane()]), uint(texelOf(tile, at)), metricAt(tile, at), info);
-  if (left.film_pl != film_was) film[place] = other[place] = left.film_pl;
+  if (left.film_pl != film_was) {
+    film[place] = left.film_pl;
+    other[place] = left.film_pl;
+  }
   uint lie = packedBeads(left.beads);
   if (lie != beads_was) beads[place] = lie;
   ivec4 sum = summed(ivec4(toldOf(left.film_pl, left.beads.volume_pl), left.gone_pl));

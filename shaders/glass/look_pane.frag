@@ -155,8 +155,10 @@ vec3 throughFilm(vec4 water, SeenRidge ridge, View view, out vec3 blurred) {
   blurred = vec3(0.0);
   int part = 0;
   do {
-    Bent bent = bentBy(withRidge(water, ridge, (float(part) + 0.5) * part_px - (parts > 1 ? 0.5 : 0.0)), view);
-    if (parts > 1) spanned = max(length((bent.shift - last.shift) * frame.viewport.zw), kWaves_rad * frame.pixels_per_rad);
+    vec4 here = withRidge(water, ridge, (float(part) + 0.5) * part_px - (parts > 1 ? 0.5 : 0.0));
+    Bent bent = bentBy(here, view);
+    float waves_px = here.w > water.w ? kWaves_rad * frame.pixels_per_rad : 1.0;  // beside the roll there are none
+    if (parts > 1) spanned = max(length((bent.shift - last.shift) * frame.viewport.zw), waves_px);
     light += shownBy(bent, view, spanned, blurred);
     last = bent;
   } while (++part < parts);
@@ -184,7 +186,11 @@ void main() {
   vec4 film_water = water;
   SeenRidge ridge = seenRidge(i.from_eye + frame.eye_in_vehicle.xyz, dFdx(i.from_eye), dFdy(i.from_eye));
   water = withRidge(film_water, ridge, 0.0);
+#ifdef INSIDE
   bool ridged = ridgeParts(ridge) > 1;
+#else
+  const bool ridged = false;
+#endif
 #else
   const bool ridged = false;
 #endif

@@ -61,7 +61,11 @@ struct FilmAround {
   int gap_pl;    // the lesser of two that lie opposite each other, of the pair that has more
 };
 
-RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) { return float(volume_pl) * (kPicolitre_m3 * metric.z); }
+// Exact, as all that a flux hangs on: both sides of a face work it out for themselves, on a GPU in other kernels' code, and must agree to the picolitre.
+RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) {
+  RG_EXACT float h_m = float(volume_pl) * (kPicolitre_m3 * metric.z);
+  return h_m;
+}
 
 // Field between the corners of a tile. `f` in 0..1.
 RG_FN vec4 between(RG_IN(vec4) a, RG_IN(vec4) b, float f) {
@@ -73,8 +77,14 @@ RG_FN vec4 betweenNodes(RG_IN(vec4) a, RG_IN(vec4) b, RG_IN(vec4) c, RG_IN(vec4)
 }
 
 // Mean velocity q / h of a film: Nusselt 1916, q = rho g h^3 / (3 mu), and a wind's shear on its surface, q = tau h^2 / (2 mu).
-RG_FN vec2 fallingVelocity(float h_m, RG_IN(vec4) drive) { return vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m); }
-RG_FN vec2 blownVelocity(float h_m, RG_IN(vec4) drive) { return vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m); }
+RG_FN vec2 fallingVelocity(float h_m, RG_IN(vec4) drive) {
+  RG_EXACT vec2 u = vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m);
+  return u;
+}
+RG_FN vec2 blownVelocity(float h_m, RG_IN(vec4) drive) {
+  RG_EXACT vec2 u = vec2(drive.z, drive.w) * (kShear_per_pa_s * h_m);
+  return u;
+}
 RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) { return fallingVelocity(h_m, drive) + blownVelocity(h_m, drive); }
 
 // Where wind opposes gravity the flow q(h) turns round at one thickness and its waves, which go dq/dh = 3 fallen - 2 blown, at two thirds of that: between
@@ -82,8 +92,8 @@ RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) { return fallingVelocity(h
 // so fast, the other way, each neighbour gets this much more. Ripples die where that, times h, rises with h as fast as q does there (as Engquist &
 // Osher 1981, Math. Comput. 36, split q): 0.6 (3 fallen - 4/3 blown) is no less, and above it need not fall.
 RG_FN float counterflow(float fallen, float blown) {
-  float f = abs(fallen), b = abs(blown);
-  return fallen * blown < 0.0f ? 0.6f * max(min(f - (2.0f / 3.0f) * b, b * (1.0f / 3.0f)), 0.0f) : 0.0f;
+  RG_EXACT float b = abs(blown), up = abs(fallen) - (2.0f / 3.0f) * b, down = b * (1.0f / 3.0f), more = 0.6f * max(min(up, down), 0.0f);
+  return fallen * blown < 0.0f ? more : 0.0f;
 }
 
 // Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
@@ -93,8 +103,9 @@ RG_CONST float kFastest_cells = 7.0f / 8.0f;
 // courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Less than half a cell,
 // so that with four eighths of levelling and roundings nothing gives more than it has.
 RG_FN float keptToOneCell(float courant) {
-  float i = 1.0f / max(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
-  return i * i * min(3.0f - 2.0f * i, 1.48f / kFastest_cells);
+  RG_EXACT float i = 1.0f / max(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
+  RG_EXACT float tangent = 3.0f - 2.0f * i, share = i * i * min(tangent, 1.48f / kFastest_cells);
+  return share;
 }
 
 // Past the pane's edge the film goes on level; onto dry glass it goes down.
@@ -112,14 +123,21 @@ RG_FN FilmAround filmAround(int volume_pl, int left_pl, int right_pl, int below_
 // and that of the one on either side.
 RG_CONST int kMostUneven = 30;
 RG_FN int glassLevel(uint code, int k) { return int(code >> uint(5 * (k + 1))) & 31; }
-RG_FN float unevenness(int level) { return float(level) * (2.0f / float(kMostUneven)) - 1.0f; } // -1 .. 1
+RG_FN float unevenness(int level) { // -1 .. 1
+  RG_EXACT float share = float(level) * (2.0f / float(kMostUneven)) - 1.0f;
+  return share;
+}
 
 // Tangent of the largest turn that uneven glass gives a contact line's way, and so what runs there (unsourced).
 RG_CONST float kMostTurn = 0.75f;
 
 // Where it has dry glass beside it a stream follows its edge, whose way over uneven glass is not straight down: driven by the part along it of what drives
 // it, so times the square of the turn's cosine (0.64 at the largest).
-RG_FN vec2 turned(vec2 along, float turn) { return (along + turn * vec2(-along.y, along.x)) * (1.0f - 0.64f * turn * turn); }
+RG_FN vec2 turned(vec2 along, float turn) {
+  RG_EXACT float part = 1.0f - 0.64f * turn * turn;
+  RG_EXACT vec2 way = (along + turn * vec2(-along.y, along.x)) * part;
+  return way;
+}
 
 // Differences of a step damp what changes from texel to texel by 64 of tension's share and 8 of weight's, and waves by twice their way: beyond two in all
 // it would grow. Of what waves leave of two these are for tension and for weight; the rest is there so that what alternates dies away.
@@ -144,9 +162,8 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   cell.h_m = thickness_m(volume_pl, metric);
   bool wet = cell.h_m >= info.pin_m;
   // Two fronts that meet over a texel take it between them.
-  float front_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
+  RG_EXACT float front_m = info.front_m * (1.0f + 0.5f * unevenness(glass));
   cell.entry_m = volume_pl < 0 || wet || 2.0f * thickness_m(around.gap_pl, metric) >= front_m ? 0.0f : front_m;
-  // Exact: both sides of a face work a texel out for themselves, and must agree to the picolitre.
   RG_EXACT vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), straight = fallen + blown;
   RG_EXACT vec2 u = thickness_m(around.least_pl, metric) < info.pin_m ? turned(straight, kMostTurn * unevenness(glass)) : straight;
   // What is not wet goes nowhere.
@@ -185,7 +202,8 @@ RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) 
 
 // Whether it overcomes what holds the contact line that lies between: what drives the film is as its thickness, and but a part of it goes that way.
 RG_FN bool enters(RG_IN(FilmCell) from, int along_pl, RG_IN(FilmCell) to) {
-  return from.h_m * float(abs(along_pl)) >= to.entry_m * from.mainly_pl;
+  RG_EXACT float drives = from.h_m * float(abs(along_pl)), holds = to.entry_m * from.mainly_pl;
+  return drives >= holds;
 }
 
 // What passes from a to its neighbour b in the direction of the axis. `a_pl`, `b_pl`: what both want to give along it; `a_both_pl`, `b_both_pl`:

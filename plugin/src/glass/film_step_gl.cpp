@@ -60,7 +60,7 @@ void FilmGl::step(std::span<const Step> steps) {
   each(gl, steps, kFilmBarrier, &FilmGl::changeAndDry);
   sweepAndLeave(steps);
   each(gl, steps, kFilmBarrier, &FilmGl::dryAfterBlades);
-  each(gl, steps, kFilmBarrier, &FilmGl::flowOverTiles);
+  each(gl, steps, kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::flowOverTiles);
   for (const Step& s : steps) s.film->turnOver();
 }
 

@@ -239,7 +239,8 @@ void RainRenderer::Objects::drawStreaks(uint32_t slot_end, bool soft_depth) {
     gl.MultiDrawArraysIndirect(GL_LINES, reinterpret_cast<const void*>(sizeof(shared::RainLineCommand)),
                                draws, kStride);
   }
-  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the next draw's streaks do not overtake these
+  // The next draw's streaks do not overtake these, nor a new beginning the records that this one put in.
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 RainRenderer::RainRenderer(const gl::Context& context, uint32_t capacity)
