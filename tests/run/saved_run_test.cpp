@@ -34,6 +34,9 @@ TEST_F(SavedRuns, goOnWithTheSameStateAndPictures) {
   EXPECT_EQ(a["state_hash"], b["state_hash"]);
   EXPECT_EQ(a["rain_hash"], b["rain_hash"]);
   EXPECT_EQ(a["panes"], b["panes"]);
+  double run_on_ml = 0.0;
+  for (const nlohmann::json& pane : a["panes"]) run_on_ml += pane["run_on_ml"].get<double>();
+  EXPECT_GT(run_on_ml, 0.01) << "what is under way round pillars is a part of what is saved";
   EXPECT_EQ(b["gl_errors"], 0);
   EXPECT_TRUE(slurp(folder / "whole" / "shot_0.50.png") == slurp(folder / "rest" / "shot_0.50.png"));
   EXPECT_FALSE(slurp(folder / "whole" / "shot_0.30.png") == slurp(folder / "whole" / "shot_0.50.png"));
