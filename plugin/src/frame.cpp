@@ -393,6 +393,7 @@ uint64_t Frame::hash(bool with_glass) {
     for (const uint64_t part : {uint64_t{id}, p.sim->hash(), film + fog})
       h = (h ^ part) * UINT64_C(0x100000001b3);  // FNV-1a's prime
   }
+  for (const auto& [between, pillar] : pillars_) h = (h ^ pillar->hash()) * UINT64_C(0x100000001b3);
   return h;
 }
 

@@ -148,6 +148,11 @@ void Frame::contextLost() {
 void Frame::leaveGl() {
   gl_.reset();
   for (auto& [id, p] : panes_) p.sim->detachFilm();
+  // What waited for films runs; where it waited for a neighbour's ticks too, turn by turn.
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    for (auto& [id, p] : panes_) goes_on = p.sim->resume() || goes_on;
+  }
 }
 
 // Panes are made by the CPU's side at any time, and what they ask of their film waits; their GL half follows

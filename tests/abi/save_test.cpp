@@ -100,6 +100,8 @@ TEST_F(Save, goesOnAsIfNothingHadHappened) {
     if (!odd) whole->rain_mm_h = whole->snow_mm_h = whole->hail_mm_h = 0.0;
     const std::vector<Told> expected = goOn(*whole, kAfter);
     ASSERT_GT(expected.back().weather.bounced, 0u) << "no stone bounced";
+    ASSERT_GT(expected.back().panes[0].run_on_ml + expected.back().panes[1].run_on_ml, 0.0)
+        << "nothing came round the pillar";
     ASSERT_GT(expected.back().panes[0].ridge_ml, 0.0) << "nothing is wiped";
     ASSERT_GT(expected.back().panes[1].drained_ml, 0.0) << "the window slid without stripping water";
     ASSERT_NE(expected.back().state, then);

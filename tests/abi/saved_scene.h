@@ -22,9 +22,10 @@ class SavedScene : public SmallScene {
       expect(api.set_parameter(instance, name, value));
   }
 
+  // Beside a pillar of 10 cm.
   rg_result setWindow(float width_m = 0.4f) const {
-    const float left = 0.5f + width_m;
-    const std::array<float, 12> positions{1, left, 1, 1, 0.5f, 1, 1, 0.5f, 1.3f, 1, left, 1.3f};
+    const float left = 0.3f + width_m;
+    const std::array<float, 12> positions{1, left, 1, 1, 0.3f, 1, 1, 0.3f, 1.3f, 1, left, 1.3f};
     const std::array<float, 8> uvs{0, 0, 1, 0, 1, 1, 0, 1};
     const std::array<uint32_t, 6> indices{0, 2, 1, 0, 3, 2};
     rg_pane_info pane;

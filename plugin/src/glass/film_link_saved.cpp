@@ -17,6 +17,7 @@ constexpr uint32_t kMostReports = 64;
 // Of a report's tiles what its tick still asks for.
 constexpr auto kAskedLater = {&shared::FilmTile::film_low_pl, &shared::FilmTile::film_high,
                               &shared::FilmTile::beads_pl};
+constexpr auto kRunOff = {&shared::FilmTile::drained_pl, &shared::FilmTile::blown_pl};  // likewise
 
 void visitOrder(auto& a, auto& order) {
   a.list(order.takes, kMostInList, [&a](auto& take) {
@@ -181,6 +182,11 @@ void FilmLink::writeReports(saved::Writer& a) const {
       for (const shared::FilmTile& tile : report.tiles) row.push_back(tile.*field);
       saved::writeRow<uint32_t>(a, row);
     }
+    for (const auto field : kRunOff) {
+      row.clear();
+      for (const shared::FilmTile& tile : report.tiles) row.push_back(static_cast<uint32_t>(tile.*field));
+      saved::writeRow<uint32_t>(a, row);
+    }
     a.list(report_takers_[i], report_takers_[i].size());
     a.list(report.taken_pl, report.taken_pl.size());
   }
@@ -212,6 +218,13 @@ void FilmLink::readReports(saved::Reader& a) {
     for (const auto field : kAskedLater) {
       saved::readRow<uint32_t>(a, row);
       for (size_t t = 0; t < row.size(); ++t) report.tiles[t].*field = row[t];
+    }
+    for (const auto field : kRunOff) {
+      saved::readRow<uint32_t>(a, row);
+      for (size_t t = 0; t < row.size(); ++t) {
+        a.require(row[t] <= 0x7fffffffu, "more ran off a tile than can");
+        report.tiles[t].*field = static_cast<int>(row[t]);
+      }
     }
     std::vector<Taker> takers;
     a.list(takers, kMostInList);

@@ -334,7 +334,9 @@ void PaneSim::submit(const PaneTick& tick) {
 void PaneSim::reset() {
   const std::lock_guard lock(state_->mutex);
   state_->waiting.clear();
+  // Off it too: a neighbour's reset may have come before a last tick of this one, which other threads run.
   for (const auto& pillar : state_->pillars_on) pillar->clear();
+  for (const auto& pillar : state_->pillars_off) pillar->clear();
   state_->tellOwed();
   state_->drops.clear();
   state_->craters.clear();

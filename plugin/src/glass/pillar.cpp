@@ -12,8 +12,9 @@
 namespace rg::glass {
 namespace {
 
-// A way over a pillar begins along the one pane and ends along the other: the cosine of its mean way to
-// the line between both is no less, and both edges run side by side, to within the angle of this cosine.
+// A way over a pillar begins along the one pane and ends along the other: the cosines of both to the line
+// between are together no less, and both edges run side by side, to within the angle of the other cosine (by
+// eye).
 constexpr double kLooksAt = 0.5, kSideBySide = 0.7;
 
 // A pane that has not been ticked for so long is inactive, for others wait no longer for their films: what
@@ -161,6 +162,12 @@ void Pillar::clear() {
   const std::lock_guard lock(mutex_);
   under_way_.clear();
   for (Crossing& crossing : crossings_) crossing.gathered_pl = 0;
+}
+
+uint64_t Pillar::hash() const {
+  saved::Writer all;
+  write(all);
+  return saved::fingerprintOf(all.bytes);
 }
 
 void Pillar::write(saved::Writer& a) const {

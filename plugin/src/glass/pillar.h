@@ -29,8 +29,9 @@ struct Trickle {
   int64_t volume_pl = 0;
 };
 
-// [thread: any; it locks itself] Moments are those of PaneTick. What it is given it hands on, all of it and
-// in order, kPillarTicks later, so that it does not depend on how far either pane's ticks have come.
+// [thread: any; it locks itself] Moments are those of PaneTick. What it is given, in whole picolitres, it
+// hands on in order kPillarTicks later, so that it does not depend on how far either pane's ticks have come.
+// What nobody takes for ten seconds runs past.
 class Pillar {
  public:
   // Finds which tiles of the one have an edge that looks at the other's edge. A tile's water gathers and
@@ -49,6 +50,7 @@ class Pillar {
   std::vector<Trickle> arrived(int64_t moment);
 
   void clear();
+  uint64_t hash() const;  // of what is under way
 
   // What is on its way, as part of a saved state; `now`: the latest moment there was.
   void write(saved::Writer& a) const;
