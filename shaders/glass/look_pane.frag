@@ -116,15 +116,16 @@ struct View {
 // How the film's surface bends it: by how much of the picture, and what it reflects more than a flat one.
 struct Bent { vec2 shift; float more; };
 
+// A view bent at the glass misses what stands close behind it by less than what is far.
+float leverOf(View view) { return view.behind_m / (view.behind_m + view.to_glass_m); }
+
 Bent bentBy(vec4 water, View view) {
   vec3 surface = normalize(view.normal - slopeOf(water));
   vec3 transmitted = refract(view.within, -surface, kWaterIndex);
   if (dot(transmitted, transmitted) < 0.5) transmitted = view.direction;
   float flat_reflectance = fresnel(max(dot(view.within, view.normal), 0.0), 1.0 / kWaterIndex);
   float more = max(fresnel(max(dot(view.within, surface), 0.0), 1.0 / kWaterIndex) - flat_reflectance, 0.0);
-  // A view bent at the glass misses what stands close behind it by less than what is far.
-  float lever = view.behind_m / (view.behind_m + view.to_glass_m);
-  return Bent(lever * (inPicture(mat3(frame.eye_from_vehicle) * transmitted) - view.at), more / (1.0 - flat_reflectance));
+  return Bent(leverOf(view) * (inPicture(mat3(frame.eye_from_vehicle) * transmitted) - view.at), more / (1.0 - flat_reflectance));
 }
 
 // What is shown so; `blurred`: the same through droplets.
@@ -157,7 +158,7 @@ vec3 throughFilm(vec4 water, SeenRidge ridge, View view, out vec3 blurred) {
   do {
     vec4 here = withRidge(water, ridge, (float(part) + 0.5) * part_px - (parts > 1 ? 0.5 : 0.0));
     Bent bent = bentBy(here, view);
-    float waves_px = here.w > water.w ? kWaves_rad * frame.pixels_per_rad : 1.0;  // beside the roll there are none
+    float waves_px = here.w > water.w ? max(kWaves_rad * leverOf(view) * frame.pixels_per_rad, 1.0) : 1.0;  // beside the roll there are none
     if (parts > 1) spanned = max(length((bent.shift - last.shift) * frame.viewport.zw), waves_px);
     light += shownBy(bent, view, spanned, blurred);
     last = bent;
