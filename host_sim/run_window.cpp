@@ -149,7 +149,7 @@ void WindowRun::restoreFrom(const std::filesystem::path& file) {
   time_ns_ = host::restoreFrom(stage_, readRun(file, scenario_), file);
 }
 
-// Whatever is wrong with the file, the drive goes on.
+// Whatever is wrong with the file, or with the moment, the drive goes on.
 void WindowRun::saveOrRestore() {
   const Wanted wanted = std::exchange(wanted_, Wanted::nothing);
   if (wanted == Wanted::nothing) return;
@@ -160,6 +160,8 @@ void WindowRun::saveOrRestore() {
     else
       restoreFrom(file);
   } catch (const InputError& e) {
+    std::fprintf(stderr, "host_sim: %s\n", e.what());
+  } catch (const PluginError& e) {
     std::fprintf(stderr, "host_sim: %s\n", e.what());
   }
 }

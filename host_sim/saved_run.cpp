@@ -57,9 +57,10 @@ void requireWritable(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const bool exists = std::filesystem::exists(file, error);
-  if (exists ? !std::filesystem::is_regular_file(file, error) || access(file.c_str(), W_OK) != 0
-             : access(folder.c_str(), W_OK) != 0)
-    refuse(file, "cannot be written");
+  const bool writable =
+      !exists || (std::filesystem::is_regular_file(file, error) && access(file.c_str(), W_OK) == 0);
+  // What is written is a file beside it, which then takes its name.
+  if (!writable || access(folder.c_str(), W_OK) != 0) refuse(file, "cannot be written");
 }
 
 SavedRun readRun(const std::filesystem::path& file, const Scenario& scenario) {

@@ -128,8 +128,8 @@ SavedRun Stage::save(int64_t time_ns) {
 }
 
 int64_t Stage::restore(const SavedRun& saved) {
-  // The light that the sky lays changes in steps from where it was first laid: as in a run from its beginning.
-  renderer_->beginFrame(sky(0), simulation_->eyeAt(0).position_m);
+  const auto first_sky = sky(0);
+  const glm::dvec3 first_eye_m = simulation_->eyeAt(0).position_m;
   const nlohmann::json before = fieldsOf(*simulation_);
   setFields(*simulation_, saved.simulation);
   try {
@@ -140,6 +140,9 @@ int64_t Stage::restore(const SavedRun& saved) {
   }
   setParameters();  // the scenario's, which --set may have changed
   simulation_->resume();
+  // The light that the sky lays changes in steps from where it was first laid: as in a run from its
+  // beginning.
+  renderer_->beginFrame(first_sky, first_eye_m);
   renderer_->beginFrame(sky(saved.time_ns), simulation_->eyeAt(saved.time_ns).position_m);
   return saved.time_ns;
 }

@@ -2,6 +2,7 @@
 // with its name and length. What a host sets, volumes, panes and wipers, is not in it: panes are known again
 // by what their glass is made of.
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "frame.h"
@@ -20,7 +21,7 @@ using saved::Writer;
 constexpr std::string_view kMagic = "RGSAVED\n";
 constexpr uint32_t kFormat = 1;  // of all that follows; raised whenever any part is written otherwise
 constexpr size_t kLongestName = 64;
-constexpr uint32_t kMostPanes = 65536, kMostWashes = kMostPanes * glass::kMostWashings;
+constexpr uint32_t kMostPanes = 65536;
 
 // What the numbers in it mean: another build may have others.
 constexpr std::array<int64_t, 8> kBuild = {kTickHz,
@@ -170,7 +171,7 @@ void Frame::writeParts(Writer& body, const FilmStates& films) const {
   writePart(body, "splashes", [&](Writer& a) { a(splashes_); });
   writePart(body, "wetness", [&](Writer& a) { a(wetness_); });
   writePart(body, "washers", [&](Writer& a) {
-    a.list(washes_, kMostWashes, [&a](const WashObject& wash) { visitWash(a, wash); });
+    a.list(washes_, washes_.size(), [&a](const WashObject& wash) { visitWash(a, wash); });
   });
   writePart(body, "panes", [&](Writer& a) {
     const auto count = static_cast<uint32_t>(panes_.size());
@@ -268,16 +269,16 @@ int64_t Frame::readClock(Reader& a) {
 
 void Frame::readWashes(Reader& a) {
   std::vector<WashObject> washes;
-  a.list(washes, kMostWashes, [&](WashObject& wash) {
+  std::map<uint32_t, uint32_t> on_pane;
+  a.list(washes, panes_.size() * glass::kMostWashings, [&](WashObject& wash) {
     visitWash(a, wash);
     const auto on = panes_.find(wash.pane);
     a.require(on != panes_.end(), "a pane is washed that is not there");
+    // Before its jet is made, which takes a look at all of the pane.
+    a.require(++on_pane[wash.pane] <= glass::kMostWashings, "more jets wash a pane than can");
     a.require(wash.begin_ns < wash.end_ns && wash.given_pl <= wash.volume_pl, "a jet ends before it begins");
     wash.jet = std::make_shared<const glass::Jet>(wash.info, on->second.sim->map(), on->second.sim->name());
   });
-  for (const auto& [id, p] : panes_)
-    a.require(std::ranges::count(washes, id, &WashObject::pane) <= std::ptrdiff_t{glass::kMostWashings},
-              "more jets wash a pane than can");
   if (a.commits()) washes_ = std::move(washes);
 }
 

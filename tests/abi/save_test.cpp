@@ -216,7 +216,85 @@ TEST_F(Save, tellsTheSizeWhereTheBufferIsTooSmall) {
   EXPECT_EQ(s->api.restore(s->instance, nullptr, size), RG_ERROR_BAD_ARGUMENT);
 }
 
+// At the edge of what a host may tell: drops as large as may be placed, which merge, and a view that looks
+// nowhere.
+TEST_F(Save, takesBackWhateverItWrote) {
+  const auto s = scene(false);
+  s->frame();
+  std::array<rg_glass_drop, 3> drops{};
+  for (size_t i = 0; i < drops.size(); ++i) {
+    drops[i].u_m = 0.01 * static_cast<double>(i);
+    drops[i].base_radius_m = 0.02;
+    drops[i].contact_angle_deg = 169.9;
+  }
+  s->expect(s->api.place_drops(s->instance, kPane, drops.data(), 3));
+  const Bytes placed = s->save();
+  s->expect(s->restore(placed));
+  s->frame();
+  s->expect(s->restore(s->save()));
+
+  rg_view nowhere = s->view;
+  std::fill_n(nowhere.projection, 16, 0.0);
+  rg_sample sample;
+  s->api.default_sample(&sample);
+  sample.time_ns = s->time_ns + 20'000'000;
+  sample.views = &nowhere;
+  sample.view_count = 1;
+  s->expect(s->api.update(s->instance, sample.time_ns, &sample, 1, sizeof sample));
+  const uint64_t rain = s->hash(RG_HASH_RAIN);
+  s->expect(s->restore(s->save()));
+  EXPECT_EQ(s->hash(RG_HASH_RAIN), rain);
+}
+
+// A film that is made as the window closes: in its first step glass is hidden and shown again.
+TEST_F(Save, restoresAFilmThatWasMadeAMomentAgo) {
+  const auto s = scene(false);
+  for (int i = 0; i < 16; ++i) s->frame();  // it stands open by 0.2 m
+  s->expect(s->attach(GlContext::getProc));
+  const rg_opening_knot shut{s->time_ns + 8'000'000, kWindow, 0, 0.0};
+  rg_sample sample;
+  s->api.default_sample(&sample);
+  sample.time_ns = s->time_ns + 10'000'000;
+  sample.opening_knots = &shut;
+  sample.opening_knot_count = 1;
+  s->expect(s->api.update(s->instance, sample.time_ns, &sample, 1, sizeof sample));
+  s->expect(s->api.step_gpu(s->instance));
+  const Bytes saved = s->save();
+  const int64_t steps = s->steps, time_ns = s->time_ns;
+  const auto goOnWith = [&] {
+    s->steps = steps;
+    s->time_ns = time_ns;
+    drive(*s, 3, false);
+    expectClosed(s->stats(kWindow));
+    return s->hash();
+  };
+  const uint64_t expected = goOnWith();
+  s->expect(s->restore(saved));
+  EXPECT_EQ(goOnWith(), expected);
+  s->expect(s->api.detach_gl(s->instance));
+}
+
 // ---- what is refused ----
+
+struct Counted {
+  static inline size_t made = 0;
+  uint8_t value = 0;
+  std::array<char, 1000> more{};
+  Counted() { ++made; }
+  static void visit(auto& a, auto& counted) { a.within(counted.value, 0, 1); }
+};
+
+// A list that says it has more than can be read takes no room for what is not there.
+TEST(SavedReader, makesRoomAsItReads) {
+  Bytes bytes(4 + 5000, 2);  // no value that is taken
+  bytes[0] = 5000 % 256, bytes[1] = 5000 / 256, bytes[2] = bytes[3] = 0;
+  bytes[4] = bytes[5] = 1;
+  saved::Reader a(bytes, false);
+  std::vector<Counted> list;
+  EXPECT_THROW(a.list(list, 10'000), saved::Refused);
+  EXPECT_EQ(Counted::made, 3u);
+  EXPECT_LE(list.capacity() * sizeof(Counted), bytes.size());
+}
 
 // Where the header ends and what in it is told of the rest; as frame_saved.cpp writes it.
 struct Layout {
@@ -238,6 +316,25 @@ void vouchFor(Bytes& bytes) {
   put(bytes, at.checksum - 8, bytes.size() - at.body);
   put(bytes, at.checksum, saved::fingerprintOf(std::span(bytes).subspan(at.body)));
 }
+
+// Where a part of the body begins, by its name, and how long it is.
+struct Part {
+  Part(const Bytes& bytes, const std::string& name) {
+    const auto number = [&](size_t from, size_t size) {
+      uint64_t value = 0;
+      for (size_t i = 0; i < size; ++i) value |= static_cast<uint64_t>(bytes.at(from + i)) << (8 * i);
+      return static_cast<size_t>(value);
+    };
+    std::string found;
+    for (at = Layout(bytes).body; found != name; at += found == name ? 0 : length) {
+      const size_t letters = number(at, 4);
+      found.assign(reinterpret_cast<const char*>(&bytes.at(at + 4)), letters);
+      at += 4 + letters + 8;
+      length = number(at - 8, 8);
+    }
+  }
+  size_t at, length = 0;
+};
 
 class BadState : public Save {
  protected:
@@ -351,6 +448,26 @@ TEST_F(BadState, withAbsurdNumbersDoesNoHarm) {
       ASSERT_EQ(good->hash(), hash) << "at " << at;
     }
   }
+}
+
+TEST_F(BadState, ofMoreJetsThanAPaneTakesIsRefused) {
+  const Part part(saved, "washers");
+  ASSERT_EQ(saved[part.at], 1u) << "one is at work";
+  const Bytes jet(saved.begin() + static_cast<std::ptrdiff_t>(part.at) + 4,
+                  saved.begin() + static_cast<std::ptrdiff_t>(part.at + part.length));
+  const auto with = [&](unsigned char count) {
+    Bytes bytes(saved.begin(), saved.begin() + static_cast<std::ptrdiff_t>(part.at + part.length));
+    for (int i = 1; i < count; ++i) bytes.insert(bytes.end(), jet.begin(), jet.end());
+    put(bytes, part.at - 8, 4 + jet.size() * count);
+    bytes[part.at] = count;
+    bytes.insert(bytes.end(), saved.begin() + static_cast<std::ptrdiff_t>(part.at + part.length),
+                 saved.end());
+    vouchFor(bytes);
+    return bytes;
+  };
+  expectRefused(with(9), "nine jets", "more jets");
+  expectRefused(with(17), "more than two panes take", "too long");
+  EXPECT_TRUE(survives(with(8)));
 }
 
 TEST_F(BadState, ofOtherObjectsNamesThem) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gl_fixture.h"
+#include "glass/craters.h"
 #include "scene.h"
 #include "shared/glass_crater.glsl"
 
@@ -67,6 +68,36 @@ TEST(Crater, fillsFasterInAFilmThatFlows) {
   const float still = shared::craterDepthLeft(record, 2.0f);
   record.filling_hz = 10.0f;
   EXPECT_LT(shared::craterDepthLeft(record, 2.0f), 0.2f * still);
+}
+
+// What is forgotten and when hangs on ticks: not on who looks, and how often.
+TEST(Crater, isTheSameWhetherLookedAtOrNot) {
+  const Mesh mesh = windscreen(0.2, 0.15);
+  const glass::PaneInfo info = paneInfo(mesh);
+  const glass::PaneMap map(info);
+  glass::PaneTick rain = weather(300.0);
+  glass::ForceField forces;
+  forces.make(map, rain.acceleration_mps2, rain.air_mps);
+  glass::Craters seen(map), unseen(map);
+  std::vector<glass::Impact> impacts;
+  size_t most = 0;
+  for (rain.index = 1; rain.index <= 600; ++rain.index) {
+    glass::findImpacts(map, rain, 7, 1, impacts);
+    for (const glass::Impact& impact : impacts) {
+      for (glass::Craters* craters : {&seen, &unseen}) craters->add(impact, 60e-6, forces, rain.index);
+    }
+    most = std::max(most, seen.at(rain.index).size());
+    if (rain.index % 120 != 0) continue;
+    for (glass::Craters* craters : {&seen, &unseen}) craters->forget(rain.index);
+  }
+  saved::Writer a, b;
+  seen.write(a), unseen.write(b);
+  EXPECT_GT(most, 20u);
+  EXPECT_EQ(a.bytes, b.bytes);
+  seen.forget(100'000);
+  saved::Writer none;
+  seen.write(none);
+  EXPECT_EQ(none.bytes, std::vector<unsigned char>(4, 0));
 }
 
 double depthsOf(const glass::PaneSim& sim) {

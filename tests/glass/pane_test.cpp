@@ -3,6 +3,7 @@
 
 #include "gl_fixture.h"
 #include "glass/film_order.h"
+#include "saved/archive.h"
 #include "scene.h"
 
 namespace rg::test {
@@ -46,6 +47,30 @@ TEST_F(Pane, waterIsTheSameHoweverTimeIsCut) {
   EXPECT_EQ(run({10}), each_tick) << "12 pictures a second";
   EXPECT_EQ(run({4, 1, 7, 2, 31, 3}), each_tick) << "irregular";
   EXPECT_EQ(run({120}, true), each_tick) << "one picture a second";
+}
+
+// A saved pane whose ticks are not those of its film would wait for reports that never come, or keep them.
+TEST(PaneSaved, isRefusedWhereItsClocksDiffer) {
+  const Mesh mesh = windscreen(0.3, 0.2);
+  glass::PaneSim sim(paneInfo(mesh), 1, 7);
+  glass::PaneTick rain = weather(30.0);
+  // Resets in the middle of a film's step leave the film's clock behind.
+  for (rain.index = 1; rain.index <= 21; ++rain.index) {
+    sim.submit(rain);
+    if (rain.index % 7 == 0) sim.reset();
+  }
+  saved::Writer written;
+  sim.write(written, nullptr);
+  const auto read = [&](int64_t ticks) {
+    for (size_t i = 0; i < 8 && ticks >= 0; ++i)
+      written.bytes[8 + i] = static_cast<unsigned char>(ticks >> (8 * i));  // after the fingerprint
+    saved::Reader a(written.bytes, true);
+    sim.read(a);
+  };
+  EXPECT_NO_THROW(read(-1)) << "as it was";
+  EXPECT_THROW(read(1000), saved::Refused);
+  EXPECT_THROW(read(0), saved::Refused);
+  EXPECT_NO_THROW(read(24));
 }
 
 TEST_F(Pane, growsNoFurtherWhenTheGpuIsNotStepped) {

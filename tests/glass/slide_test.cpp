@@ -201,6 +201,21 @@ TEST_F(SlidingFilm, madeInTheMiddleOfAStepKnowsOfTheSill) {
   EXPECT_GT(sim->stats().film_pl, 0);
 }
 
+// A film that is made while the window is open, and in its first step the window closes: that makes no water.
+TEST_F(SlidingFilm, hiddenAndShownInOneStepIsDry) {
+  const Mesh mesh = window();
+  Simulation run(gl, info(mesh));
+  run.sim->detachFilm();
+  for (int i = 0; i < 2; ++i) run.tick(opened(weather(0.0), 0.15));
+  run.sim->attachFilm();
+  for (int i = 0; i < 4; ++i) run.tick(weather(0.0));
+  const glass::PaneStats s = run.stats();
+  EXPECT_EQ(s.film_pl, 0);
+  const std::vector<int32_t> film = run.pane.readFilm();
+  for (int i = 0; i < run.sim->map().texelCount(); ++i)
+    ASSERT_EQ(film[static_cast<size_t>(i)], run.sim->map().inside(i) ? 0 : -1) << i;
+}
+
 // Up and down in a downpour, the last ticks as when it stands open; then the film is lost with its context.
 TEST_F(SlidingFilm, theLedgerClosesWhereverItStands) {
   const Mesh mesh = window();

@@ -51,6 +51,31 @@ TEST_P(WindsPast, staysByTheWay) {
   EXPECT_LE(until_s, 1800 * kTickSeconds - weather.known_s) << past.count << " stretches";
 }
 
+// The way itself leaves one place to the newest: so many and no more may be read.
+TEST(WindsPastSaved, leavesRoomForTheNewest) {
+  WindPath path;
+  path.start(0.0, dvec3(0.0), dvec3(1.0, 0.0, 0.0));
+  saved::Writer newest, saved;
+  newest(std::as_const(path));
+  const size_t count_at = 4 + 7 * 8;  // after one piece
+  for (const uint8_t count : {uint8_t{30}, uint8_t{31}}) {
+    saved.bytes.assign(newest.bytes.begin(), newest.bytes.begin() + count_at);
+    saved.bytes.insert(saved.bytes.end(), {count, 0, 0, 0});
+    saved.bytes.resize(saved.bytes.size() + size_t{count} * 7 * 8);  // zeros
+    saved.bytes.insert(saved.bytes.end(), newest.bytes.begin() + count_at + 4, newest.bytes.end());
+    saved::Reader a(saved.bytes, false);
+    WindPath read;
+    if (count == 31) {
+      EXPECT_THROW(a(read), saved::Refused);
+      continue;
+    }
+    a(read);
+    WindPath::Past past;
+    read.trace(past);
+    EXPECT_EQ(past.count, WindPath::Past::kMost);
+  }
+}
+
 dvec3 steady(double) { return {3, 1, 0}; }
 // A step is over within a tick, and leaves a corner of half a tick.
 dvec3 stepped(double t) { return t < 5.0 ? dvec3(4, 0, 0) : t < 14.9 ? dvec3(0, -2, 0) : dvec3(2, 1, 0); }

@@ -619,7 +619,9 @@ typedef struct rg_api {
    *
    * save: *size is the buffer's size, and then the state's; with a buffer that is null that is all it tells. One
    * that is too small is refused, nothing written. restore: what is no such state is refused and changes
-   * nothing; whatever the bytes are, they do no harm.
+   * nothing; whatever the bytes are, they do no harm. save answers RG_ERROR_WRONG_ORDER after remove_wiper, or
+   * a set_wiper that changed one, as long as what that blade swept last is still to be done on the film: update
+   * once more. Places are as they were: a state saved before rebase_origin lies in the old origin.
    * [thread: as update; attached ones also GL, context current: they wait for the GPU] */
   rg_result (*save)(rg_instance* instance, void* buffer, size_t* size);
   rg_result (*restore)(rg_instance* instance, const void* buffer, size_t size);

@@ -39,7 +39,8 @@ void Craters::Crater::visit(auto& a, auto& crater) {
   constexpr int64_t kMostTicks = INT64_C(1) << 40;
   auto& r = crater.record;
   a.within(crater.tick, -kMostTicks, kMostTicks);
-  a(r.position_m, r.velocity_mps);
+  a.within(r.position_m, 0.0, 100.0);
+  a(r.velocity_mps);
   a.within(r.width_m, 0.0, 1.0), a.within(r.film_m, 0.0, 1.0);
   a.within(r.filling_hz, 0.0, 1e9), a.within(r.levelling_m4_s, 0.0, 1e9);
 }
@@ -52,8 +53,7 @@ void Craters::read(saved::Reader& a) {
   if (!a.commits()) return;
   clear();
   craters_ = std::move(craters);
-  for (size_t i = 0; i < craters_.size(); ++i)
-    of_cell_[cellOf(glm::dvec2(craters_[i].record.position_m))] = static_cast<int32_t>(i);
+  findCells();
 }
 
 Craters::Craters(const PaneMap& map)
@@ -63,12 +63,22 @@ Craters::Craters(const PaneMap& map)
 
 void Craters::clear() {
   craters_.clear();
-  of_cell_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), -1);
+  findCells();
 }
 
-size_t Craters::cellOf(glm::dvec2 place_m) const {
+void Craters::findCells() {
+  of_cell_.assign(static_cast<size_t>(cell_count_.x * cell_count_.y), -1);
+  for (size_t i = 0; i < craters_.size(); ++i) of_cell_[cellOf(craters_[i])] = static_cast<int32_t>(i);
+}
+
+size_t Craters::cellOf(const Crater& crater) const {
+  const glm::dvec2 place_m(crater.record.position_m);
   const glm::ivec2 cell = glm::clamp(glm::ivec2(place_m / kCell_m), glm::ivec2(0), cell_count_ - 1);
   return static_cast<size_t>(cell.y * cell_count_.x + cell.x);
+}
+
+double Craters::ageOf_s(const Crater& crater, int64_t tick) {
+  return static_cast<double>(tick - crater.tick) * kTickSeconds;
 }
 
 void Craters::add(const Impact& impact, double film_m, const ForceField& forces, int64_t tick) {
@@ -86,27 +96,30 @@ void Craters::add(const Impact& impact, double film_m, const ForceField& forces,
   crater.record.film_m = static_cast<float>(film_m);
   crater.record.levelling_m4_s = shared::craterLevelling_m4_s(crater.record.film_m);
   if (!isSeen(crater.record, 0.0)) return;
-  int32_t& known = of_cell_[cellOf(impact.place_m)];
+  int32_t& known = of_cell_[cellOf(crater)];
   if (known >= 0) {
     Crater& before = craters_[static_cast<size_t>(known)];
-    const double age_s = static_cast<double>(tick - before.tick) * kTickSeconds;
-    if (displaced_m3(crater.record, 0.0) > displaced_m3(before.record, age_s)) before = crater;
+    if (displaced_m3(crater.record, 0.0) > displaced_m3(before.record, ageOf_s(before, tick)))
+      before = crater;
     return;
   }
   known = static_cast<int32_t>(craters_.size());
   craters_.push_back(crater);
 }
 
-std::vector<shared::CraterRecord> Craters::at(int64_t tick) {
-  const auto age_s = [tick](const Crater& c) { return static_cast<double>(tick - c.tick) * kTickSeconds; };
-  std::erase_if(craters_, [&](const Crater& c) { return !isSeen(c.record, age_s(c)); });
-  std::fill(of_cell_.begin(), of_cell_.end(), -1);
+void Craters::forget(int64_t tick) {
+  const auto isGone = [tick](const Crater& crater) { return !isSeen(crater.record, ageOf_s(crater, tick)); };
+  if (std::erase_if(craters_, isGone) > 0) findCells();
+}
+
+std::vector<shared::CraterRecord> Craters::at(int64_t tick) const {
   std::vector<shared::CraterRecord> out;
   out.reserve(craters_.size());
-  for (const Crater& c : craters_) {
-    of_cell_[cellOf(glm::dvec2(c.record.position_m))] = static_cast<int32_t>(out.size());
-    out.push_back(c.record);
-    out.back().age_s = static_cast<float>(age_s(c));
+  for (const Crater& crater : craters_) {
+    const double age_s = ageOf_s(crater, tick);
+    if (!isSeen(crater.record, age_s)) continue;
+    out.push_back(crater.record);
+    out.back().age_s = static_cast<float>(age_s);
   }
   return out;
 }

@@ -19,8 +19,10 @@ class Craters {
   // A drop fell into a film of this thickness. One too small to be seen in the film's grid leaves none; one
   // that falls where another did takes its place, unless more of that is to be seen.
   void add(const Impact& impact, double film_m, const ForceField& forces, int64_t tick);
-  // Records as of a tick, of those that are still to be seen; forgets the others.
-  std::vector<shared::CraterRecord> at(int64_t tick);
+  // Those that are no more to be seen.
+  void forget(int64_t tick);
+  // Records as of a tick, of those that are still to be seen.
+  std::vector<shared::CraterRecord> at(int64_t tick) const;
   void clear();
   void write(saved::Writer& a) const;
   void read(saved::Reader& a);
@@ -31,7 +33,9 @@ class Craters {
     int64_t tick = 0;
     static void visit(auto& a, auto& crater);
   };
-  size_t cellOf(glm::dvec2 place_m) const;
+  size_t cellOf(const Crater& crater) const;
+  static double ageOf_s(const Crater& crater, int64_t tick);
+  void findCells();
 
   const PaneMap& map_;
   glm::ivec2 cell_count_;

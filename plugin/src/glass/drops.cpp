@@ -361,8 +361,9 @@ void Drops::age(const DropWorld& world, int slot) {
   }
 }
 
-// A braced drop that dries stays so: what it loses frees it less than what holds it gets weaker. As it has
-// become noticeably smaller its shape is looked at anew.
+// A braced drop that dries stays so: its weight goes with its volume, what holds it with its width, V^(1/3),
+// so that the pull falls faster than the hold. As it has become noticeably smaller its shape is looked at
+// anew.
 void Drops::dry(const DropWorld& world, int slot) {
   constexpr float kNoticed = 0.97f;
   Drop& drop = slots_.items[static_cast<size_t>(slot)];

@@ -51,7 +51,7 @@ struct alignas(32) Drop {
   // Of one that is there, but for where it hangs.
   static void visit(auto& a, auto& drop) {
     a.within(drop.place_m, 0.0, 100.0);
-    a.within(drop.base_radius_m, 1e-9, 0.2);
+    a.within(drop.base_radius_m, 1e-9, 10.0);
     a.within(drop.elongation, 1.0, 100.0);
     a.within(drop.corner, -10.0, 10.0);
     a.within(drop.braced_pl, 0.0, 3.4e38);
@@ -59,7 +59,7 @@ struct alignas(32) Drop {
     a.within(drop.heading, -1.1, 1.1);
     a(drop.texel);
     a.within(drop.velocity_mps, -1000.0, 1000.0);
-    a.within(drop.height_m, 0.0, 1.0);
+    a.within(drop.height_m, 0.0, 10.0);
     a.within(drop.since_pearl_m, 0.0, 1e6);
     a(drop.seed);
   }

@@ -2,12 +2,13 @@
 #include <algorithm>
 
 #include "glass/drops.h"
+#include "glass/saved_limits.h"
 
 namespace rg::glass {
 namespace {
 
-constexpr int64_t kMostInDrop_pl =
-    INT64_C(1'000'000'000'000);  // of a drop: 1 mL, a hundred times what stays whole
+// Of a drop: 100 L (1e12 pl are 1 L). A host may place one of 6.4 L, and those that touch merge.
+constexpr int64_t kMostInDrop_pl = INT64_C(100'000'000'000'000);
 
 }  // namespace
 
@@ -55,7 +56,10 @@ int64_t Drops::read(saved::Reader& a) {
   a.list(changed, size_t{1} << 24);
   checkRead(a, slots, order, free, changed);
   int64_t sum_pl = 0;
-  for (const Slot& slot : slots) sum_pl += slot.drop.volume_pl;
+  for (const Slot& slot : slots) {
+    sum_pl += slot.drop.volume_pl;
+    a.require(sum_pl <= kMostSaved_pl, "there is too much on the glass");
+  }
   if (!a.commits()) return sum_pl;
   clear();
   hangIn(slots, order);

@@ -204,7 +204,7 @@ std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
     change.share_65536 = take.share_65536;
     change.take = static_cast<int>(&take - order.takes.data());
   }
-  for (const SlidTexel& slid : order.slid) of(slid.texel).added_pl = slid.shown ? 1 : -1;
+  for (const SlidTexel& slid : order.slid) of(slid.texel).added_pl += slid.shown ? 1 : -1;
   for (const shared::FilmAdd& add : order.adds) of(add.texel).added_pl += add.volume_pl;
   for (const shared::BeadAdd& add : order.bead_adds) {
     shared::FilmChange& change = of(add.texel);

@@ -97,6 +97,9 @@ class FilmLink {
   bool settled(const SweptBy& swept_by) const;
   void write(saved::Writer& a) const;
   void read(saved::Reader& a, const SweptBy& swept_by);  // by one that is not attached
+  // Whether what was read fits a pane's clock: `now` is the step that is being gathered, `asked` the one
+  // whose report is used next.
+  bool fits(int64_t now, int64_t asked) const;
   const std::vector<SlidTexel>& slidInThisStep() const { return order_.slid; }
 
  private:

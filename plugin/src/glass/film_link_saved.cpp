@@ -44,21 +44,20 @@ void visitOrder(auto& a, auto& order) {
   a.list(order.leave_texels, kMostInList);
 }
 
-// No texel twice, each on the glass.
-void checkTexels(const saved::Reader& a, const PaneMap& map, const auto& items) {
-  std::vector<bool> seen(static_cast<size_t>(map.texelCount()), false);
+void checkPlaces(const saved::Reader& a, const PaneMap& map, const auto& items) {
   for (const auto& item : items) {
     a.require(item.texel >= 0 && item.texel < map.texelCount() && map.inside(item.texel),
               "a texel is off the pane");
-    a.require(!seen[static_cast<size_t>(item.texel)], "a texel is told twice");
-    seen[static_cast<size_t>(item.texel)] = true;
   }
 }
 
-void checkTakers(const saved::Reader& a, const PaneMap& map, const std::vector<Taker>& takers) {
-  for (const Taker& taker : takers) {
-    a.require(taker.texel >= 0 && taker.texel < map.texelCount() && map.inside(taker.texel),
-              "a texel is off the pane");
+// No texel twice, each on the glass.
+void checkTexels(const saved::Reader& a, const PaneMap& map, const auto& items) {
+  checkPlaces(a, map, items);
+  std::vector<bool> seen(static_cast<size_t>(map.texelCount()), false);
+  for (const auto& item : items) {
+    a.require(!seen[static_cast<size_t>(item.texel)], "a texel is told twice");
+    seen[static_cast<size_t>(item.texel)] = true;
   }
 }
 
@@ -129,11 +128,19 @@ void FilmLink::read(saved::Reader& a, const SweptBy& swept_by) {
       a.within(ridge_pl_, 0, kMostSaved_pl);
 }
 
+// Steps are behind where a pane was reset in the middle of some. As nothing is under way all that were closed
+// have been reported: what is asked for and was not would be waited for without end, as would reports that
+// none asks for any more.
+bool FilmLink::fits(int64_t now, int64_t asked) const {
+  return first_step_ <= next_step_ && next_step_ <= now && asked <= last_reported_ &&
+         (reports_.empty() || reports_.front().step >= asked);
+}
+
 void FilmLink::checkOrder(const saved::Reader& a) const {
   checkTexels(a, *map_, order_.takes);
-  checkTexels(a, *map_, order_.slid);
+  checkPlaces(a, *map_, order_.slid);
   checkTexels(a, *map_, order_.bead_adds);
-  checkTakers(a, *map_, takers_);
+  checkPlaces(a, *map_, takers_);
   a.require(takers_.size() == order_.takes.size(), "what was taken has no taker");
   for (const SweepOrder& sweep : order_.sweeps) {
     a.require(sweep.swept != nullptr && sweep.first_range % shared::kBladeSegments == 0 &&
@@ -228,7 +235,7 @@ void FilmLink::readReports(saved::Reader& a) {
     }
     std::vector<Taker> takers;
     a.list(takers, kMostInList);
-    checkTakers(a, *map_, takers);
+    checkPlaces(a, *map_, takers);
     a.list(report.taken_pl, kMostInList, [&a](int& taken_pl) { a.within(taken_pl, 0, INT32_MAX); });
     a.require(takers.size() == report.taken_pl.size(), "what was taken has no taker");
     reports_.push_back(std::move(report));

@@ -25,7 +25,8 @@ struct SweepOrder {
   bool backwards = false;  // towards lesser angles
 };
 
-// A texel that a window's sill hides from now on, or shows again, dry.
+// A texel that a window's sill hides from now on, or shows again, dry. Where a film is made in the middle of
+// a step it may be both, one after the other.
 struct SlidTexel {
   int texel;
   bool shown;

@@ -86,7 +86,9 @@ void PaneSim::State::run(const PaneTick& tick) {
   drops.merge(shared_world);
   for (uint32_t i = 0; i < tick.wiper_count; ++i) blades.stroke(shared_world, drops, tick.wipers[i]);
   drops.age(shared_world);
-  if (ticks % kTicksPerFilmStep == 0) closeFilmStep();
+  if (ticks % kTicksPerFilmStep != 0) return;
+  craters.forget(ticks);
+  closeFilmStep();
 }
 
 // In the first tick of a film step, before all that happens in it. The seal strips what goes behind the sill:

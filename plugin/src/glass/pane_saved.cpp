@@ -1,4 +1,5 @@
 // A pane as a saved state: told apart by its glass, and only taken where its ledger closes.
+#include <ranges>
 #include <stdexcept>
 
 #include "glass/film_state.h"
@@ -22,8 +23,8 @@ void visitNow(auto& a, auto& now) {
 }
 
 void visitLedger(auto& a, auto& ledger) {
-  for (auto* term :
-       {&ledger.caught_pl, &ledger.run_on_pl, &ledger.drained_pl, &ledger.wiped_pl, &ledger.blown_pl, &ledger.evaporated_pl})
+  for (auto* term : {&ledger.caught_pl, &ledger.run_on_pl, &ledger.drained_pl, &ledger.wiped_pl,
+                     &ledger.blown_pl, &ledger.evaporated_pl})
     a.within(*term, 0, kMostSaved_pl);
 }
 
@@ -90,12 +91,14 @@ std::optional<FilmState> PaneSim::read(saved::Reader& a) {
   s.blades.read(a);
   FilmLink link(s.map, s.ledger);
   link.read(a, State::sweptBy(s));
+  const int64_t step = ticks / kTicksPerFilmStep + 1;
+  a.require(link.fits(step, State::stepUsedBy(step * kTicksPerFilmStep)), "its film is of another time");
   a(has_film);
   a.require(has_film == link.attached(), "its film is missing");
   a.require(!has_film || s.film.attached(), "it has a film, and here there is no GL for one");
   std::optional<FilmState> film;
   if (has_film) {
-    film.emplace().read(a, s.map, s.hiddenOnFilm(link, slid_on_film));
+    film.emplace().read(a, s.map, s.hiddenOnFilm(a, link, slid_on_film));
     a.require(film->filmSum_pl() == link.film_pl() && film->beadsSum_pl() == link.beads_pl() &&
                   film->ridgesSum_pl() == link.ridge_pl(),
               "its film holds other water than was told");
@@ -145,12 +148,16 @@ void PaneSim::State::takeFilm(FilmLink&& link, size_t gone_on_film) {
   slid_on_film = slid;
 }
 
-// What the link's order hides or shows has not happened yet.
-std::vector<bool> PaneSim::State::hiddenOnFilm(const FilmLink& link, size_t gone_on_film) {
+// What the link's order hides or shows has not happened yet: gone back from where it ends, the last first.
+std::vector<bool> PaneSim::State::hiddenOnFilm(const saved::Reader& a, const FilmLink& link,
+                                               size_t gone_on_film) {
   std::vector<bool> hidden(static_cast<size_t>(map.texelCount()), false);
   for (size_t i = 0; i < gone_on_film; ++i) hidden[static_cast<size_t>(slide.texel(map, i))] = true;
-  for (const SlidTexel& slid_now : link.slidInThisStep())
-    hidden[static_cast<size_t>(slid_now.texel)] = slid_now.shown;
+  for (const SlidTexel& slid_now : std::views::reverse(link.slidInThisStep())) {
+    const auto texel = static_cast<size_t>(slid_now.texel);
+    a.require(hidden[texel] != slid_now.shown, "a texel is hidden or shown that is so already");
+    hidden[texel] = slid_now.shown;
+  }
   return hidden;
 }
 

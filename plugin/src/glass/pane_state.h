@@ -74,7 +74,7 @@ struct PaneSim::State {
   }
   void slideTo(size_t gone);
   void takeFilm(FilmLink&& link, size_t gone_on_film);
-  std::vector<bool> hiddenOnFilm(const FilmLink& link, size_t gone_on_film);
+  std::vector<bool> hiddenOnFilm(const saved::Reader& a, const FilmLink& link, size_t gone_on_film);
 
   uint32_t chance() const { return id ^ static_cast<uint32_t>(seed); }
   // Outward; where the pane bends not of unit length, so that products with it are the pane's means.

@@ -126,7 +126,7 @@ void Border::followClass(FollowedView& view, uint32_t kind, const Cone& cone, co
   margin.sides_m += turned_m * after + kSpare * cell;
   margin.reach_m += 0.5 * glm::length(past_m) * after + kSpare * cell;
   known.region = Region(cone, margin);
-  known.found = true;
+  known.found = cone.valid;  // of none there are no rows, and nothing to be known by
   findRows(cone, margin, known.eye_m / cell, cell, view.rows[kind][1 - known.current]);
   takeRows(view, kind);
 }

@@ -76,7 +76,7 @@ class WindPath {
 
   static void visit(auto& a, auto& path) {
     a(path.pieces_);
-    a.within(path.past_.count, 0u, Past::kMost);
+    a.within(path.past_.count, 0u, Past::kMost - 1);  // trace() puts one before them
     for (uint32_t i = 0; i < path.past_.count; ++i) a(path.past_.stretches[i]);
     a(path.carried_m_, path.wind_mps_, path.time_s_);
   }

@@ -137,6 +137,10 @@ Cone coneOf(const ViewState& view) {
   };
   for (size_t i = 0; i < 4; ++i) cone.valid = cone.valid && usable(cone.inward[i]) && usable(cone.corners[i]);
   cone.valid = cone.valid && usable(cone.eye_m);
+  if (cone.valid) return cone;
+  // Such a one is passed on and saved as well: with numbers in it.
+  if (!usable(cone.eye_m)) cone.eye_m = dvec3(0.0);
+  cone.inward.fill(dvec3(0.0)), cone.corners.fill(dvec3(0.0));
   return cone;
 }
 

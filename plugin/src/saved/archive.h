@@ -76,8 +76,7 @@ class Archive {
   // At most `most` things; each(thing) for each of them.
   template <class List, class F>
   void list(List& things, size_t most, F&& each) {
-    self().resize(things, most);
-    for (auto& thing : things) each(thing);
+    self().items(things, most, each);
   }
   template <class List>
   void list(List& things, size_t most) {
@@ -133,9 +132,10 @@ class Writer : public Archive<Writer> {
   void whole(T value, T, T) {
     put(static_cast<std::make_unsigned_t<T>>(value));
   }
-  template <class List>
-  void resize(const List& things, size_t) {
+  template <class List, class F>
+  void items(List& things, size_t, F& each) {
     put(static_cast<uint32_t>(things.size()));
+    for (auto& thing : things) each(thing);
   }
   // Seven bits a byte, the lowest first.
   void packed(uint64_t value) {
@@ -186,13 +186,16 @@ class Reader : public Archive<Reader> {
     value = static_cast<T>(take<std::make_unsigned_t<T>>());
     require(value >= least && value <= most, "a number is out of range");
   }
-  template <class List>
-  void resize(List& things, size_t most) {
+  // Room is made as things are read: however many there are said to be, it is in proportion to the bytes
+  // there are.
+  template <class List, class F>
+  void items(List& things, size_t most, F& each) {
     const size_t count = take<uint32_t>();
-    // Each thing takes a byte at least: no more room is made than there are bytes for.
-    require(count <= most && count <= left(), "a list is too long");
+    require(count <= most && count <= left(), "a list is too long");  // each takes a byte at least
     things.clear();
-    things.resize(count);
+    if constexpr (requires { things.reserve(count); })
+      things.reserve(std::min(count, left() / sizeof(typename List::value_type)));
+    while (things.size() < count) each(things.emplace_back());
   }
   uint64_t packed() {
     uint64_t value = 0;
