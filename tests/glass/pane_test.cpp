@@ -3,6 +3,7 @@
 
 #include "gl_fixture.h"
 #include "glass/film_order.h"
+#include "glass/film_state.h"
 #include "saved/archive.h"
 #include "scene.h"
 
