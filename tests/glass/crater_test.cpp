@@ -84,7 +84,7 @@ TEST(Crater, isTheSameWhetherLookedAtOrNot) {
   for (rain.index = 1; rain.index <= 600; ++rain.index) {
     glass::findImpacts(map, rain, 7, 1, impacts);
     for (const glass::Impact& impact : impacts) {
-      for (glass::Craters* craters : {&seen, &unseen}) craters->add(impact, 60e-6, forces, rain.index);
+      for (glass::Craters* craters : {&seen, &unseen}) craters->add(impact, 150e-6, forces, rain.index);
     }
     most = std::max(most, seen.at(rain.index).size());
     if (rain.index % 120 != 0) continue;
