@@ -74,6 +74,21 @@ TEST(PaneSaved, isRefusedWhereItsClocksDiffer) {
   EXPECT_NO_THROW(read(24));
 }
 
+// Each cuts a film's step short: those never come, and nobody may wait for them.
+TEST_F(Pane, goesOnAfterManyResetsInTheMiddleOfAFilmsStep) {
+  const Mesh mesh = windscreen(0.3, 0.2);
+  Simulation sim(gl, paneInfo(mesh));
+  for (int i = 0; i < 24; ++i) {
+    sim.tick(weather(10.0));
+    sim.pane.step();
+    sim.sim->reset();
+  }
+  sim.run(weather(10.0), 0.5);
+  sim.pane.finish();
+  EXPECT_FALSE(sim.sim->waiting());
+  EXPECT_GT(sim.stats().caught_pl, 0);
+}
+
 TEST_F(Pane, growsNoFurtherWhenTheGpuIsNotStepped) {
   const Mesh mesh = windscreen(0.3, 0.2);
   Simulation sim(gl, paneInfo(mesh));

@@ -606,22 +606,23 @@ typedef struct rg_api {
   rg_result (*rebase_origin)(
       rg_instance* instance,
       const double shift_m[3]); /* the host's world moved by -shift: p_new = p_old - shift */
-  /* Since minor 7; before, both answered RG_ERROR_MISSING_FEATURE. The whole state as bytes that may be kept and
-   * sent: the rain, the water on each pane and what wipers carry of it, jets at work, fog, ledgers, the samples
-   * not used up, parameters. An instance that restores them goes on, by the samples after that moment, as the
-   * one that saved them did: to the bit on the same driver, within 1 % of a pane's volumes on another. They are
-   * the same on every machine, and for this version of the plugin alone.
+  /* Since minor 7; before, both answered RG_ERROR_MISSING_FEATURE. The whole state as bytes that may be kept
+   * and sent: the rain, the water on each pane and what wipers carry of it, jets at work, fog, ledgers, the
+   * samples not used up, parameters. An instance that restores them goes on, by the samples after that
+   * moment, as the one that saved them did: to the bit on the same driver, within 1 % of a pane's volumes on
+   * another. They are the same on every machine, and for this version of the plugin alone.
    *
    * Objects are not among them: restore wants the same panes and wipers, set in the same order under the same
    * ids, an instance of the same seed and max_drops and, where the state has films, one that is attached.
-   * Volumes may be others: what lies in them or below them is as if they had been set at that moment. Airflows
-   * and the rain's pattern stay yours, and the clock is the state's: samples go on after the last one it had.
+   * Volumes may be others: what lies in them or below them is as if they had been set at that moment.
+   * Airflows and the rain's pattern stay yours, and the clock is the state's: samples go on after the last
+   * one it had.
    *
-   * save: *size is the buffer's size, and then the state's; with a buffer that is null that is all it tells. One
-   * that is too small is refused, nothing written. restore: what is no such state is refused and changes
-   * nothing; whatever the bytes are, they do no harm. save answers RG_ERROR_WRONG_ORDER after remove_wiper, or
-   * a set_wiper that changed one, as long as what that blade swept last is still to be done on the film: update
-   * once more. Places are as they were: a state saved before rebase_origin lies in the old origin.
+   * save: *size is the buffer's size, and then the state's; with a buffer that is null that is all it tells.
+   * One that is too small is refused, nothing written. restore: what is no such state is refused and changes
+   * nothing; whatever the bytes are, they do no harm. save answers RG_ERROR_WRONG_ORDER after remove_wiper,
+   * or a set_wiper that changed one, as long as what that blade swept last is still to be done on the film:
+   * update once more. Places are as they were: a state saved before rebase_origin lies in the old origin.
    * [thread: as update; attached ones also GL, context current: they wait for the GPU] */
   rg_result (*save)(rg_instance* instance, void* buffer, size_t* size);
   rg_result (*restore)(rg_instance* instance, const void* buffer, size_t size);

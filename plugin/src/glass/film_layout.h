@@ -13,7 +13,8 @@ namespace rg::glass {
 
 inline constexpr size_t kAlign = 256;      // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
 inline constexpr size_t kTileFields = 12;  // TileState in film_buffers.glsl
-inline constexpr size_t kTileAwake = 2, kTileLast = 4;  // of those: after how each turn stirs; its last report
+inline constexpr size_t kTileAwake = 2,
+                        kTileLast = 4;  // of those: after how each turn stirs; its last report
 inline constexpr size_t kTileStateBytes = kTileFields * sizeof(int32_t);
 inline constexpr std::array<uint32_t, 16> kNoneAwake{
     0, 1, 1, 0, 0, 1, 1, 0,

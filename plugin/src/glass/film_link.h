@@ -90,6 +90,9 @@ class FilmLink {
   int64_t ridge_pl() const { return ridge_pl_; }
   int64_t travelling_pl() const;
   void clear();  // dry, before the next step
+  void skipTo(int64_t next_step) {
+    next_step_ = next_step;
+  }  // before clear(): those between are never asked for
 
   // The list that a blade sweeps by the first piece of its ridge; null where there is none.
   using SweptBy = std::function<std::shared_ptr<const std::vector<shared::SweptTexel>>(int)>;

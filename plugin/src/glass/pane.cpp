@@ -342,6 +342,9 @@ void PaneSim::reset() {
   state_->tellOwed();
   state_->drops.clear();
   state_->craters.clear();
+  // Film steps end with the same ticks as on a new pane; the one that this cuts short there never was.
+  state_->ticks += state_->ticks % kTicksPerFilmStep;
+  state_->film.skipTo(state_->ticks / kTicksPerFilmStep + 1);
   state_->film.clear();
   state_->slid_on_film = 0;
   state_->blades.clear();
@@ -349,7 +352,6 @@ void PaneSim::reset() {
   state_->forces.clear();
   state_->now = {};
   state_->dropped_ticks = 0;
-  state_->ticks += state_->ticks % kTicksPerFilmStep;  // film steps end with the same ticks as on a new pane
   state_->snapshot.reset();
 }
 
