@@ -190,7 +190,7 @@ TEST_F(BadObjects, meshesOfNonsense) {
                                    static_cast<float>(kNaN),
                                    static_cast<float>(-kInfinity)};
   int refused = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 30; ++round) {
     Pane pane(api);
     for (int i = 0; i < 2; ++i) {
       std::vector<float>& numbers = random() % 2 == 0 ? pane.positions : pane.uvs;
@@ -206,7 +206,7 @@ TEST_F(BadObjects, meshesOfNonsense) {
     }
     EXPECT_EQ(stateHash(), before) << "round " << round;
   }
-  EXPECT_GT(refused, 15) << "hardly any nonsense was tried";
+  EXPECT_GT(refused, 7) << "hardly any nonsense was tried";
 }
 
 TEST_F(BadObjects, wipersThatCannotTurn) {
