@@ -2,9 +2,14 @@
 // a window that slides open, fog; saved between ticks of any parity.
 #pragma once
 
+#include <memory>
+
+#include "gl_fixture.h"
 #include "small_scene.h"
 
 namespace rg::test {
+
+using Bytes = std::vector<unsigned char>;
 
 inline constexpr uint32_t kWindow = 2;
 
@@ -24,21 +29,7 @@ class SavedScene : public SmallScene {
 
   // Beside a pillar of 10 cm.
   rg_result setWindow(float width_m = 0.4f) const {
-    const float left = 0.3f + width_m;
-    const std::array<float, 12> positions{1, left, 1, 1, 0.3f, 1, 1, 0.3f, 1.3f, 1, left, 1.3f};
-    const std::array<float, 8> uvs{0, 0, 1, 0, 1, 1, 0, 1};
-    const std::array<uint32_t, 6> indices{0, 2, 1, 0, 3, 2};
-    rg_pane_info pane;
-    api.default_pane_info(&pane);
-    pane.name = "window";
-    pane.vehicle = kCar;
-    pane.positions_m = positions.data();
-    pane.uvs = uvs.data();
-    pane.indices = indices.data();
-    pane.vertex_count = 4;
-    pane.index_count = 6;
-    pane.texel_m = 10e-3;
-    return api.set_pane(instance, kWindow, &pane);
+    return setUprightPane(kWindow, "window", {0.3f, 0.3f + width_m}, 1.3f);
   }
 
   // A frame, after it the window is told where it stands. A tick more where `odd`: one of the film's step has
@@ -56,32 +47,28 @@ class SavedScene : public SmallScene {
     if (steps == 2) wash();
   }
 
-  void wash() const {
-    rg_wash_info info;
-    api.default_wash_info(&info);
-    info.pane = kPane;
-    info.time_ns = time_ns;
-    info.duration_s = 0.5;
-    info.volume_m3 = 5e-6;
-    const std::array<double, 3> nozzle{1.3, 0.0, 1.0}, toward{-0.3, 0.0, 0.2};
-    const double length = std::hypot(toward[0], toward[2]);
-    for (size_t i = 0; i < 3; ++i) {
-      info.nozzle_m[i] = nozzle[i];
-      info.direction[i] = toward[i] / length;
+  // To its last moment, which may be in the middle of a film's step.
+  void drive(int frames, bool odd) {
+    for (int i = 1; i <= frames; ++i) {
+      frame(odd && i == frames);
+      expect(api.step_gpu(instance));
     }
+  }
+
+  void wash() const {
+    rg_wash_info info = jet();
+    info.time_ns = time_ns;
     expect(api.wash(instance, &info));
   }
 
-  std::vector<unsigned char> save() const {
+  Bytes save() const {
     size_t size = 0;
     expect(api.save(instance, nullptr, &size));
-    std::vector<unsigned char> bytes(size);
+    Bytes bytes(size);
     expect(api.save(instance, bytes.data(), &size));
     return bytes;
   }
-  rg_result restore(const std::vector<unsigned char>& bytes) const {
-    return api.restore(instance, bytes.data(), bytes.size());
-  }
+  rg_result restore(const Bytes& bytes) const { return api.restore(instance, bytes.data(), bytes.size()); }
 
   uint64_t hash(rg_hash_kind kind = RG_HASH_STATE) const {
     uint64_t value = 0;
@@ -96,5 +83,11 @@ class SavedScene : public SmallScene {
     return s;
   }
 };
+
+inline std::unique_ptr<SavedScene> savedScene(const rg_api& api, bool attached) {
+  auto made = std::make_unique<SavedScene>(api);
+  if (attached) made->expect(made->attach(GlContext::getProc));
+  return made;
+}
 
 }  // namespace rg::test

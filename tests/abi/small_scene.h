@@ -75,11 +75,19 @@ class SmallScene {
 
   // 0.4 x 0.4 m, upright, 1 m ahead of the car's origin; its outer side looks ahead.
   rg_result setPane(uint32_t max_drops = 20000) const {
-    const std::array<float, 12> positions{1, 0.2f, 1, 1, -0.2f, 1, 1, -0.2f, 1.4f, 1, 0.2f, 1.4f};
+    return setUprightPane(kPane, nullptr, {-0.2f, 0.2f}, 1.4f, max_drops);
+  }
+
+  // From y to y, from 1 m up to `top_m`, 1 m ahead.
+  rg_result setUprightPane(uint32_t id, const char* name, std::array<float, 2> y_m, float top_m,
+                           uint32_t max_drops = 20000) const {
+    const auto [right, left] = y_m;
+    const std::array<float, 12> positions{1, left, 1, 1, right, 1, 1, right, top_m, 1, left, top_m};
     const std::array<float, 8> uvs{0, 0, 1, 0, 1, 1, 0, 1};
     const std::array<uint32_t, 6> indices{0, 2, 1, 0, 3, 2};
     rg_pane_info pane;
     api.default_pane_info(&pane);
+    pane.name = name;
     pane.vehicle = kCar;
     pane.positions_m = positions.data();
     pane.uvs = uvs.data();
@@ -88,7 +96,23 @@ class SmallScene {
     pane.index_count = 6;
     pane.texel_m = 10e-3;
     pane.max_drops = max_drops;
-    return api.set_pane(instance, kPane, &pane);
+    return api.set_pane(instance, id, &pane);
+  }
+
+  // A jet onto the pane, of half a second and 5 mL.
+  rg_wash_info jet() const {
+    rg_wash_info info;
+    api.default_wash_info(&info);
+    info.pane = kPane;
+    info.duration_s = 0.5;
+    info.volume_m3 = 5e-6;
+    const std::array<double, 3> nozzle{1.3, 0.0, 1.0}, toward{-0.3, 0.0, 0.2};
+    const double length = std::hypot(toward[0], toward[2]);
+    for (size_t i = 0; i < 3; ++i) {
+      info.nozzle_m[i] = nozzle[i];
+      info.direction[i] = toward[i] / length;
+    }
+    return info;
   }
 
   rg_result setWiper() const {

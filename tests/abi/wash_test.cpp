@@ -6,21 +6,6 @@
 namespace rg::test {
 namespace {
 
-rg_wash_info jet(const rg_api& api) {
-  rg_wash_info info;
-  api.default_wash_info(&info);
-  info.pane = kPane;
-  info.duration_s = 0.5;
-  info.volume_m3 = 5e-6;
-  const std::array<double, 3> nozzle{1.3, 0.0, 1.0}, toward{-0.3, 0.0, 0.2};
-  const double length = std::hypot(toward[0], toward[2]);
-  for (size_t i = 0; i < 3; ++i) {
-    info.nozzle_m[i] = nozzle[i];
-    info.direction[i] = toward[i] / length;
-  }
-  return info;
-}
-
 rg_pane_stats paneStats(const SmallScene& scene) {
   rg_pane_stats stats{};
   stats.struct_size = sizeof stats;
@@ -31,7 +16,7 @@ rg_pane_stats paneStats(const SmallScene& scene) {
 class Wash : public BadArguments {};
 
 TEST_F(Wash, refusesNonsense) {
-  const rg_wash_info good = jet(api);
+  const rg_wash_info good = scene.jet();
   const auto refused = [&](const char* what, const std::string& field,
                            const std::function<void(rg_wash_info&)>& spoil, rg_result code) {
     rg_wash_info wash = good;
@@ -82,7 +67,7 @@ TEST(WashedPane, catchesWhatMeetsItBetweenBeginningAndEnd) {
   PluginLibrary library;
   SmallScene scene(*library.api);
   scene.rain_mm_h = 0.0;
-  rg_wash_info wash = jet(scene.api);
+  rg_wash_info wash = scene.jet();
   wash.time_ns = 100'000'000;
   scene.expect(scene.api.wash(scene.instance, &wash));
   const auto runTo = [&](double time_s) {
