@@ -19,7 +19,7 @@ using saved::Reader;
 using saved::Writer;
 
 constexpr std::string_view kMagic = "RGSAVED\n";
-constexpr uint32_t kFormat = 1;  // of all that follows; raised whenever any part is written otherwise
+constexpr uint32_t kFormat = 2;  // of all that follows; raised whenever any part is written otherwise
 constexpr size_t kLongestName = 64;
 constexpr uint32_t kMostPanes = 65536;
 
@@ -181,14 +181,6 @@ void Frame::writeParts(Writer& body, const FilmStates& films) const {
       a.text(p.sim->name(), kLongestName);
     }
   });
-  writePart(body, "pillars", [&](Writer& a) {
-    const auto count = static_cast<uint32_t>(pillars_.size());
-    a(count);
-    for (const auto& [between, pillar] : pillars_) {
-      a.both(between);
-      pillar->write(a);
-    }
-  });
   for (const auto& [id, p] : panes_) {
     writePart(body, "pane", [&](Writer& a) {
       const auto film = films.find(id);
@@ -197,6 +189,14 @@ void Frame::writeParts(Writer& body, const FilmStates& films) const {
       p.sim->write(a, film != films.end() ? &film->second : nullptr);
     });
   }
+  writePart(body, "pillars", [&](Writer& a) {
+    const auto count = static_cast<uint32_t>(pillars_.size());
+    a(count);
+    for (const auto& [between, pillar] : pillars_) {
+      a.both(between);
+      pillar->write(a);
+    }
+  });
 }
 
 // First all of it is looked at, and nothing changed; then it is taken.
@@ -231,7 +231,6 @@ Frame::FilmStates Frame::readParts(Reader& body) {
   part("wetness", [this](Reader& a) { take(a, wetness_); });
   part("washers", [this](Reader& a) { readWashes(a); });
   part("panes", [this](Reader& a) { checkPanes(a); });
-  part("pillars", [&](Reader& a) { readPillars(a, glass_moment); });
   FilmStates films;
   for (auto& [id, p] : panes_) {
     readPart(body, "pane", called(id, p.sim->name()), [&, &object = p, id = id](Reader& a) {
@@ -245,6 +244,8 @@ Frame::FilmStates Frame::readParts(Reader& body) {
       object.left_out_ticks = read.left_out_ticks;
     });
   }
+  // After the panes: where those are others, they say so themselves.
+  part("pillars", [&](Reader& a) { readPillars(a, glass_moment); });
   body.require(body.left() == 0, "it is longer than it says");
   return films;
 }

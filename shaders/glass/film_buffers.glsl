@@ -4,8 +4,7 @@
 layout(std140, binding = 0) uniform StepInfo { FilmStepInfo info; };
 layout(std430, binding = 1) buffer Ridges {
   int ridge_pl[kMaxGlassWipers * kBladeSegments];
-  // Thrown off so far, in two parts as a tile's film is told, each modulo 2^32: a stroke in a downpour throws off more than 2^32 pl at once.
-  uint wiped_low_pl, wiped_high;
+  uint thrown_pl[kMaxGlassWipers * kBladeSegments]; // off the pane so far, modulo 2^32: a piece holds less, and leaves no more than once a step
 };
 
 const int kFields = 8, kFilmLow = 2, kFilmHigh = 3, kBeadsPl = 7; // of FilmTile

@@ -12,8 +12,7 @@ void main() {
   int volume = passed(kLeave, ridge_pl[leave.segment]);
   ridge_pl[leave.segment] = 0;
   if (leave.count == 0 || volume >= leave.over_edge_pl) {
-    atomicAdd(wiped_low_pl, uint(volume) & 0xffffu);
-    atomicAdd(wiped_high, uint(volume) >> 16u);
+    thrown_pl[leave.segment] += uint(volume);
     return;
   }
   int each = volume / leave.count;

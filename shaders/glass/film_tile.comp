@@ -67,9 +67,10 @@ void sleep(int t) {
 
 void tellRidges() {
   const int kPieces = kMaxGlassWipers * kBladeSegments;
-  for (int k = lane(); k < kPieces; k += kTileTexels) report[ridges_at + k] = ridge_pl[k];
-  if (lane() == 0) report[ridges_at + kPieces] = int(wiped_low_pl);
-  if (lane() == 1) report[ridges_at + kPieces + 1] = int(wiped_high);
+  for (int k = lane(); k < kPieces; k += kTileTexels) {
+    report[ridges_at + k] = ridge_pl[k];
+    report[ridges_at + kPieces + k] = int(thrown_pl[k]);
+  }
 }
 
 void loadColumn(ivec2 tile, int k) {

@@ -43,7 +43,11 @@ class FilmReference {
       lay(add.texel, shared::joinedBy(beadsAt(add.texel), add.volume_pl, add.number, at(add.texel)));
     for (const shared::RidgeAdd& add : order.ridge_adds) ridge(add.segment) += add.volume_pl;
     for (const glass::SweepOrder& sweep : order.sweeps) this->sweep(sweep, order);
-    for (const shared::RidgeLeave& leave : order.leaves) report.wiped_pl += this->leave(leave, order);
+    for (const shared::RidgeLeave& leave : order.leaves) {
+      if (const int volume_pl = this->leave(leave, order); volume_pl > 0)
+        report.thrown.push_back({leave.segment, -1, volume_pl});
+    }
+    std::ranges::sort(report.thrown, {}, &glass::ThrownOff::segment);
     step(order, report);
     for (const int32_t volume : ridge_) report.ridge_pl += volume;
     return report;
@@ -82,7 +86,7 @@ class FilmReference {
     }
   }
 
-  int64_t leave(const shared::RidgeLeave& leave, const glass::FilmOrder& order) {
+  int leave(const shared::RidgeLeave& leave, const glass::FilmOrder& order) {
     const int volume = std::exchange(ridge(leave.segment), 0);
     if (leave.count == 0 || volume >= leave.over_edge_pl) return volume;
     const int each = volume / leave.count;

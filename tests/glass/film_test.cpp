@@ -116,7 +116,7 @@ std::string told(const shared::FilmTile& tile) {
 void expectSame(const glass::FilmReport& got, const glass::FilmReport& expected) {
   ASSERT_EQ(got.taken_pl, expected.taken_pl);
   ASSERT_EQ(got.ridge_pl, expected.ridge_pl);
-  ASSERT_EQ(got.wiped_pl, expected.wiped_pl);
+  ASSERT_EQ(got.thrown, expected.thrown);
   for (size_t t = 0; t < got.tiles.size(); ++t) {
     ASSERT_EQ(std::memcmp(&got.tiles[t], &expected.tiles[t], sizeof(shared::FilmTile)), 0)
         << "tile " << t << " step " << got.step << ": " << told(got.tiles[t]) << ", not "
@@ -193,7 +193,7 @@ TEST_F(Film, isTheSameOnGpuAndCpu) {
       for (const int v : expected.taken_pl) took += v;
       for (const shared::SweptRange& range : order.sweep_ranges) swept += range.count;
       left += static_cast<int64_t>(order.leaves.size());
-      wiped += expected.wiped_pl;
+      for (const glass::ThrownOff& thrown : expected.thrown) wiped += thrown.volume_pl;
       sim.deliver(std::move(expected));
     }
   }

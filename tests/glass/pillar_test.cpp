@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "film_reference.h"
 #include "glass/film_order.h"
 #include "scene.h"
 
@@ -135,6 +136,57 @@ TEST(Pillar, nothingOfBeforeAResetArrivesAfterIt) {
     corner.beside->submit(pulled(i, 60.0));
   }
   EXPECT_EQ(corner.beside->stats().caught_pl, 0);
+}
+
+// A blade sweeps towards the pillar, over drops that lie along circles about its pivot which leave the pane
+// there, and on beyond the edge.
+struct Thrown {
+  Corner corner;
+  static constexpr double kArm_m = 0.15, kBlade_m = 0.2, kFrom_rad = 1.6, kTo_rad = 0.1, kStroke_s = 0.5;
+  static constexpr int64_t kTicks = 200;
+  explicit Thrown(double share) {
+    corner.join();
+    glass::WiperInfo info = wiper(rad(90), 0.2);
+    info.arm_m = kArm_m;
+    info.blade_m = kBlade_m;
+    corner.ahead->setWiper(3, info);
+    corner.ahead->attachFilm();
+    FilmReference film(corner.ahead->map(), corner.ahead->unevenness());
+    std::vector<glass::PlacedDrop> drops;
+    for (int i = 0; i < 12; ++i) {
+      const double r_m = 0.165 + 0.002 * i, angle_rad = 0.75 + 0.1 * (i % 3);
+      drops.push_back({-r_m * std::cos(angle_rad), r_m * std::sin(angle_rad) - 0.1, 3e-3, 0.5});
+    }
+    corner.ahead->placeDrops(drops);
+    for (int64_t i = 0; i < kTicks; ++i) {
+      glass::PaneTick tick = pulled(i, 0.0, share);
+      corner.beside->submit(tick);
+      tick.wiper_count = 1;
+      tick.wipers[0] = {3, angleAt(i), angleAt(i + 1), angleAt(i + 1)};
+      corner.ahead->submit(tick);
+      for (const glass::FilmOrder& order : corner.ahead->fetchOrders())
+        corner.ahead->deliver(film.run(order));
+    }
+  }
+  static double angleAt(int64_t tick) {
+    const double t = std::min(1.0, static_cast<double>(tick) * kTickSeconds / kStroke_s);
+    return kFrom_rad + (kTo_rad - kFrom_rad) * t;
+  }
+};
+
+TEST(Pillar, whatABladeThrowsOverTheEdgeThereGoesThatWayToo) {
+  for (const double share : {1.0, 0.5}) {
+    const Thrown thrown(share);
+    const glass::PaneStats off = thrown.corner.ahead->stats(), on = thrown.corner.beside->stats();
+    EXPECT_GT(off.wiped_pl, off.caught_pl / 2);
+    EXPECT_LT(off.drained_pl, off.wiped_pl / 10) << "of which this tells nothing";
+    const double most_pl = share * static_cast<double>(off.wiped_pl + off.drained_pl + off.blown_pl);
+    EXPECT_LE(on.run_on_pl, static_cast<int64_t>(most_pl));
+    // Its ends meet tiles at corners, whose edges look elsewhere in part.
+    EXPECT_GT(on.run_on_pl, static_cast<int64_t>(0.8 * share * static_cast<double>(off.wiped_pl)));
+    EXPECT_EQ(off.caught_pl, sumOf(off));
+    EXPECT_EQ(on.caught_pl, sumOf(on));
+  }
 }
 
 // The pane ahead waits for answers of its film, played here, of which each comes so many ticks late.

@@ -213,7 +213,7 @@ void Blades::layDown(FilmLink& film, Blade& blade, const Surface* surface) {
       over_edge_pl = leastToRunOn_pl(edge_m, piece_m, stroke, *surface);
     }
     film.leave(wiper.slot() * shared::kBladeSegments + segment, ahead[static_cast<size_t>(segment)],
-               over_edge_pl);
+               over_edge_pl, wiper.edgeTexel(segment, blade.direction));
   }
   blade.direction = 0.0;
 }
@@ -222,7 +222,8 @@ void Blades::layDown(FilmLink& film, Blade& blade, const Surface* surface) {
 void Blades::leaveOffGlass(FilmLink& film, const Blade& blade) {
   for (int segment = 0; segment < shared::kBladeSegments; ++segment) {
     if (blade.wiper->offGlass(segment, blade.angle_rad))
-      film.leave(blade.wiper->slot() * shared::kBladeSegments + segment, {}, kNeverRunsOn);
+      film.leave(blade.wiper->slot() * shared::kBladeSegments + segment, {}, kNeverRunsOn,
+                 blade.wiper->edgeTexel(segment, blade.direction));
   }
 }
 

@@ -100,7 +100,8 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       glass_strips_(gl),
       picture_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
       beads_picture_(gl, GL_R32UI, map.grid().size.x, map.grid().size.y),
-      change_of_(static_cast<size_t>(map.texelCount()), -1) {
+      change_of_(static_cast<size_t>(map.texelCount()), -1),
+      thrown_before_pl_(kRidgePieces, 0) {
   metric_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), metric_, 0, metric_.bytes());
   glass_strips_.show(GL_RGBA32UI, shared::kTileSize / shared::kStripSize * sizeof(uint32_t), glass_, 0,
                      glass_.bytes());
@@ -296,7 +297,7 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   FilmReport report;
   report.step = batch.steps[index].step;
   if (batch.steps[index].asleep) {
-    if (batch.steps[index].clear) wiped_before_ = {};
+    if (batch.steps[index].clear) thrown_before_pl_.assign(kRidgePieces, 0);
     report.tiles.assign(tiles_, shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
     report.taken_pl.assign(batch.steps[index].takes, 0);
     return report;
@@ -306,20 +307,28 @@ FilmReport FilmGl::read(const Batch& batch, size_t index) {
   report.taken_pl.resize(batch.steps[index].takes);
   if (!report.taken_pl.empty())
     std::memcpy(report.taken_pl.data(), from + at.taken, report.taken_pl.size() * sizeof(int));
-  std::vector<int32_t> ridges(kRidgePieces + 2, 0);
-  if (batch.steps[index].ridged) std::memcpy(ridges.data(), from + at.ridges, kRidgeBytes);
-  for (size_t i = 0; i < kRidgePieces; ++i) report.ridge_pl += ridges[i];
-  const std::array<uint32_t, 2> wiped{static_cast<uint32_t>(ridges[kRidgePieces]),
-                                      static_cast<uint32_t>(ridges[kRidgePieces + 1])};
-  if (batch.steps[index].clear) wiped_before_ = {};
-  report.wiped_pl = static_cast<int64_t>(wiped[0] - wiped_before_[0]) +
-                    (static_cast<int64_t>(wiped[1] - wiped_before_[1]) << 16);  // both modulo 2^32
-  wiped_before_ = wiped;
+  readRidges(batch, index, report);
   const bool empty = std::all_of(report.tiles.begin(), report.tiles.end(), [](const shared::FilmTile& tile) {
     return tile.film_low_pl == 0 && tile.film_high == 0 && tile.beads_pl == 0;
   });
   if (empty && report.ridge_pl == 0 && report.step >= watered_step_) dry_ = true;
   return report;
+}
+
+void FilmGl::readRidges(const Batch& batch, size_t index, FilmReport& report) {
+  const Batch::Step& step = batch.steps[index];
+  if (step.clear) thrown_before_pl_.assign(kRidgePieces, 0);
+  if (!step.ridged) return;
+  std::array<std::array<uint32_t, kRidgePieces>, 2> told;
+  static_assert(sizeof told == kRidgeBytes);
+  const ReportLayout at(tiles_, step.takes);
+  std::memcpy(told.data(), batch.mapped + step.report_at + at.ridges, kRidgeBytes);
+  const auto& [held_pl, thrown_pl] = told;
+  for (size_t piece = 0; piece < kRidgePieces; ++piece) {
+    report.ridge_pl += static_cast<int32_t>(held_pl[piece]);
+    const uint32_t thrown = thrown_pl[piece] - std::exchange(thrown_before_pl_[piece], thrown_pl[piece]);
+    if (thrown > 0) report.thrown.push_back({static_cast<int>(piece), -1, static_cast<int>(thrown)});
+  }
 }
 
 std::vector<FilmReport> FilmGl::collect(bool wait) {
@@ -372,7 +381,7 @@ void FilmGl::set(const FilmState& state) {
   ridges_.write(0, std::span<const int32_t>(state.ridge_pl));
   states_.write(0, std::span<const uint32_t>(tileStates(state)));
   awake_.write(0, std::span<const uint32_t>(kNoneAwake));
-  wiped_before_ = {};
+  thrown_before_pl_.assign(kRidgePieces, 0);
   watered_step_ = -1;
   ridged_ = state.ridgesSum_pl() > 0;
   dry_ = !ridged_ && state.filmSum_pl() == 0 && state.beadsSum_pl() == 0;

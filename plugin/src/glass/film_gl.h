@@ -124,6 +124,7 @@ class FilmGl {
   std::vector<uint32_t> tileStates(const FilmState& state) const;
   std::unique_ptr<Batch> freeBatch(size_t upload_bytes, size_t report_bytes);
   FilmReport read(const Batch& batch, size_t index);
+  void readRidges(const Batch& batch, size_t index, FilmReport& report);
   GLuint sweptBuffer(const SweepOrder& order);
 
   const GladGLContext& gl_;
@@ -145,7 +146,7 @@ class FilmGl {
   std::unique_ptr<Batch> begun_;
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;
-  std::array<uint32_t, 2> wiped_before_{};
+  std::vector<uint32_t> thrown_before_pl_;  // by each piece, as last read
   bool ridged_ = false;        // a blade had something to do with it
   bool dry_ = true;            // no water on it or in a ridge, as of the last report after it was given some
   int64_t watered_step_ = -1;  // the last that gave it some

@@ -20,8 +20,7 @@ inline constexpr std::array<uint32_t, 16> kNoneAwake{
     0, 1, 1, 0, 0, 1, 1, 0,
     0, 1, 1, 0, 0, 1, 1, 0};  // AwakeTiles in film_lists.glsl, of both turns, and those that dry
 inline constexpr size_t kTileTexels = size_t{shared::kTileSize} * shared::kTileSize;
-inline constexpr size_t kRidgeBytes =
-    (kRidgePieces + 2) * sizeof(int32_t);  // and two parts of what is wiped off
+inline constexpr size_t kRidgeBytes = 2 * kRidgePieces * sizeof(int32_t);  // and what each has thrown off
 
 inline size_t aligned(size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
 

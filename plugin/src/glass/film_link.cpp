@@ -164,11 +164,12 @@ void FilmLink::sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>
   }
 }
 
-void FilmLink::leave(int segment, const std::vector<int>& texels, int over_edge_pl) {
+void FilmLink::leave(int segment, const std::vector<int>& texels, int over_edge_pl, int edge_texel) {
   if (!attached_ || std::exchange(leaving_[static_cast<size_t>(segment)], true)) return;
   order_.leaves.push_back(
       {segment, static_cast<int>(order_.leave_texels.size()), static_cast<int>(texels.size()), over_edge_pl});
   order_.leave_texels.insert(order_.leave_texels.end(), texels.begin(), texels.end());
+  order_.leave_edges.push_back(edge_texel);
 }
 
 void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared::FilmStepInfo& info) {
@@ -185,15 +186,25 @@ void FilmLink::close(int64_t step, std::vector<shared::vec4> drive, const shared
   order_.drive = std::move(drive);
   order_.info = info;
   order_.ordered_pl = std::exchange(gathered_pl_, 0);
-  ordered_.push_back({step, order_.ordered_pl, std::exchange(takers_, {})});
+  ordered_.push_back(
+      {step, order_.ordered_pl, std::exchange(takers_, {}), order_.leaves, order_.leave_edges});
   outbox_.push_back(std::exchange(order_, {}));
 }
 
 std::vector<FilmOrder> FilmLink::fetch() { return std::exchange(outbox_, {}); }
 
+int FilmLink::Ordered::edgeOf(int segment) const {
+  const auto leave = std::ranges::find(leaves, segment, &shared::RidgeLeave::segment);
+  return leave == leaves.end() ? -1 : leave_edges[static_cast<size_t>(leave - leaves.begin())];
+}
+
 void FilmLink::deliver(FilmReport&& report) {
   if (!attached_ || ordered_.empty() || ordered_.front().step != report.step)
     return;  // of a film that is no more
+  for (ThrownOff& thrown : report.thrown) {
+    thrown.texel = ordered_.front().edgeOf(thrown.segment);
+    ledger_->wiped_pl += thrown.volume_pl;
+  }
   report_takers_.push_back(std::move(ordered_.front().takers));
   ordered_.pop_front();
   last_reported_ = report.step;
@@ -205,7 +216,6 @@ void FilmLink::deliver(FilmReport&& report) {
     ledger_->blown_pl += tile.blown_pl;
     ledger_->evaporated_pl += tile.evaporated_pl;
   }
-  ledger_->wiped_pl += report.wiped_pl;
   ridge_pl_ = report.ridge_pl;
   reports_.push_back(std::move(report));
 }

@@ -66,8 +66,9 @@ class FilmLink {
   // A blade sweeps what lies in `ranges` of its list: one for each piece, and as often as a texel may be met.
   void sweep(const std::shared_ptr<const std::vector<shared::SweptTexel>>& swept,
              const std::vector<shared::SweptRange>& ranges, int first_piece, bool backwards);
-  // A ridge's water goes to these texels; to none, or when it is so much: off the glass.
-  void leave(int segment, const std::vector<int>& texels, int over_edge_pl);
+  // A ridge's water goes to these texels; to none, or when it is so much: off the glass, over the pane's edge
+  // beside `edge_texel` (-1: not known where).
+  void leave(int segment, const std::vector<int>& texels, int over_edge_pl, int edge_texel);
 
   // Closes the step's order and queues it for the GPU.
   void close(int64_t step, std::vector<shared::vec4> drive, const shared::FilmStepInfo& info);
@@ -109,6 +110,9 @@ class FilmLink {
   struct Ordered {
     int64_t step, ordered_pl;
     std::vector<Taker> takers;
+    std::vector<shared::RidgeLeave> leaves;
+    std::vector<int> leave_edges;
+    int edgeOf(int segment) const;
   };
   const PaneMap* map_;
   Ledger* ledger_;

@@ -42,6 +42,7 @@ void visitOrder(auto& a, auto& order) {
     a(leave.first, leave.count, leave.over_edge_pl);
   });
   a.list(order.leave_texels, kMostInList);
+  a.list(order.leave_edges, kMostInList);
 }
 
 void checkPlaces(const saved::Reader& a, const PaneMap& map, const auto& items) {
@@ -153,6 +154,9 @@ void FilmLink::checkOrder(const saved::Reader& a) const {
   }
   for (const shared::RidgeLeave& leave : order_.leaves)
     a.require(lies(leave.first, leave.count, order_.leave_texels.size()), "a ridge is left nowhere");
+  a.require(order_.leave_edges.size() == order_.leaves.size(), "a ridge is left at no edge");
+  for (const int texel : order_.leave_edges)
+    a.require(texel >= -1 && texel < map_->texelCount(), "a ridge is left at an edge of another pane");
   for (const int texel : order_.leave_texels)
     a.require(texel >= 0 && texel < map_->texelCount() && map_->inside(texel), "a texel is off the pane");
 }
@@ -196,6 +200,8 @@ void FilmLink::writeReports(saved::Writer& a) const {
     }
     a.list(report_takers_[i], report_takers_[i].size());
     a.list(report.taken_pl, report.taken_pl.size());
+    a.list(report.thrown, report.thrown.size(),
+           [&a](const ThrownOff& thrown) { a(thrown.segment, thrown.texel, thrown.volume_pl); });
   }
 }
 
@@ -238,6 +244,11 @@ void FilmLink::readReports(saved::Reader& a) {
     checkPlaces(a, *map_, takers);
     a.list(report.taken_pl, kMostInList, [&a](int& taken_pl) { a.within(taken_pl, 0, INT32_MAX); });
     a.require(takers.size() == report.taken_pl.size(), "what was taken has no taker");
+    a.list(report.thrown, size_t{kRidgePieces}, [&](ThrownOff& thrown) {
+      a.within(thrown.segment, 0, kRidgePieces - 1);
+      a.within(thrown.texel, -1, map_->texelCount() - 1);
+      a.within(thrown.volume_pl, 1, INT32_MAX);
+    });
     reports_.push_back(std::move(report));
     report_takers_.push_back(std::move(takers));
   }

@@ -46,9 +46,18 @@ struct FilmOrder {
   std::vector<shared::SweptRange> sweep_ranges;
   std::vector<shared::RidgeLeave> leaves;
   std::vector<int> leave_texels;
+  std::vector<int> leave_edges;  // for each of `leaves`: where its water leaves the pane if it does; -1
   std::vector<shared::vec4> drive;  // per node, see ForceField::filmDrive
   shared::FilmStepInfo info{};
   int64_t ordered_pl = 0;  // of all adds
+};
+
+// What a blade threw off the pane in a step.
+struct ThrownOff {
+  int segment = 0;
+  int texel = -1;  // at the edge it went over, as FilmLink knows it; -1: none
+  int volume_pl = 0;
+  bool operator==(const ThrownOff&) const = default;
 };
 
 struct FilmReport {
@@ -56,7 +65,7 @@ struct FilmReport {
   std::vector<shared::FilmTile> tiles;
   std::vector<int> taken_pl;  // one for each of the order's takes
   int64_t ridge_pl = 0;
-  int64_t wiped_pl = 0;  // thrown off by blades in this step
+  std::vector<ThrownOff> thrown;  // of each piece that threw any, in their order
 };
 
 }  // namespace rg::glass

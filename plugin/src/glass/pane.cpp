@@ -172,6 +172,9 @@ void PaneSim::State::useReport() {
   }
   for (size_t i = 0; i < report.tiles.size() && !pillars_off.empty(); ++i)
     runOff(i, int64_t{report.tiles[i].drained_pl} + report.tiles[i].blown_pl);
+  for (const ThrownOff& thrown : report.thrown) {
+    if (thrown.texel >= 0) runOff(map.tileOf(thrown.texel), thrown.volume_pl);
+  }
   for (const shared::FilmTile& tile : report.tiles) {
     if (tile.event_texel < 0 || tile.event_pl <= 0) continue;
     addDrop(beadPlace(map, tile.event_texel, restingRadius_m(tile.event_pl)), tile.event_texel,

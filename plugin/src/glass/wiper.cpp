@@ -50,7 +50,7 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
       slot_(slot),
       side_(glm::cross(info.axis, info.rest_direction)),
       texel_m_(map.grid().texel_m),
-      segment_angles_(shared::kBladeSegments, {1e9, -1e9}) {
+      ends_(shared::kBladeSegments) {
   struct Entry {
     int pass, piece;
     double angle;
@@ -70,9 +70,7 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
       const shared::SweptTexel swept{i, static_cast<int>(picolitres(wear.residual_m(c.along_m[k]) * area_m2)),
                                      static_cast<int>(picolitres(wear.smear_m() * area_m2)), 0};
       entries.push_back({k, c.segment[k], c.angle_rad[k], swept});
-      auto& [low, high] = segment_angles_[static_cast<size_t>(c.segment[k])];
-      low = std::min(low, c.angle_rad[k]);
-      high = std::max(high, c.angle_rad[k]);
+      ends_[static_cast<size_t>(c.segment[k])].reach(c.angle_rad[k], i);
     }
     most = std::max(most, c.count);
   }
@@ -266,14 +264,24 @@ std::vector<std::vector<int>> Wiper::aheadOf(double extreme_rad, double directio
 }
 
 bool Wiper::offGlass(int segment, double angle_rad) const {
-  const auto [low, high] = segment_angles_[static_cast<size_t>(segment)];
+  const Ends& ends = ends_[static_cast<size_t>(segment)];
   const double margin = 1.5 * texel_m_ / info_.arm_m;
-  return angle_rad < low - margin || angle_rad > high + margin;
+  return angle_rad < ends.low_rad - margin || angle_rad > ends.high_rad + margin;
 }
 
 double Wiper::toEdge_rad(int segment, double angle_rad, double direction) const {
-  const auto [low, high] = segment_angles_[static_cast<size_t>(segment)];
-  return direction > 0.0 ? high - angle_rad : angle_rad - low;
+  const Ends& ends = ends_[static_cast<size_t>(segment)];
+  return direction > 0.0 ? ends.high_rad - angle_rad : angle_rad - ends.low_rad;
+}
+
+int Wiper::edgeTexel(int segment, double direction) const {
+  const Ends& ends = ends_[static_cast<size_t>(segment)];
+  return direction > 0.0 ? ends.high_texel : ends.low_texel;
+}
+
+void Wiper::Ends::reach(double angle_rad, int texel) {
+  if (angle_rad < low_rad) low_rad = angle_rad, low_texel = texel;
+  if (angle_rad > high_rad) high_rad = angle_rad, high_texel = texel;
 }
 
 // The derivative of a e(t) + s e(b + (1 + k) t).

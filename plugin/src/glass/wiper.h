@@ -81,6 +81,8 @@ class Wiper {
   bool offGlass(int segment, double angle_rad) const;
   // How far a piece has still to turn until it has left the glass; < 0: it has.
   double toEdge_rad(int segment, double angle_rad, double direction) const;
+  // Where a piece leaves the glass in this direction: the last texel it crosses; -1: it crosses none.
+  int edgeTexel(int segment, double direction) const;
   // Way of a piece's middle for each radian that the arm turns.
   double turnsAt_m(int segment, double angle_rad) const;
 
@@ -103,7 +105,12 @@ class Wiper {
     double radius_m = -1.0;  // less than 0: nothing lies in it
   };
   std::vector<Circle> tiles_;  // round the texels on each of the map's tiles
-  std::vector<std::pair<double, double>> segment_angles_;
+  struct Ends {
+    double low_rad = 1e9, high_rad = -1e9;
+    int low_texel = -1, high_texel = -1;
+    void reach(double angle_rad, int texel);
+  };
+  std::vector<Ends> ends_;  // of what each piece crosses
 };
 
 }  // namespace rg::glass
