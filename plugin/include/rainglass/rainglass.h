@@ -474,7 +474,7 @@ typedef struct rg_pane_stats {
   double dropped_s; /* time that was left out for this pane since it was made or reset: of stalls longer than
                        time.catch_up_s, and while step_gpu did not come for more than 4 s */
   /* Since minor 7. */
-  double run_on_ml; /* of caught: ran off other panes of its vehicle and round the pillar (glass.run_off) */
+  double run_on_ml; /* of caught: ran or was thrown off other panes of its vehicle and came round the pillar (glass.run_off) */
 } rg_pane_stats;
 
 typedef struct rg_stage_stats {

@@ -46,7 +46,7 @@ struct FilmOrder {
   std::vector<shared::SweptRange> sweep_ranges;
   std::vector<shared::RidgeLeave> leaves;
   std::vector<int> leave_texels;
-  std::vector<int> leave_edges;  // for each of `leaves`: where its water leaves the pane if it does; -1
+  std::vector<int> leave_edges;     // for each of `leaves`: where its water leaves the pane if it does; -1
   std::vector<shared::vec4> drive;  // per node, see ForceField::filmDrive
   shared::FilmStepInfo info{};
   int64_t ordered_pl = 0;  // of all adds

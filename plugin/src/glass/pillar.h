@@ -1,5 +1,5 @@
-// From one pane's edge to the next pane's, round the pillar between both: what runs off the one there goes on
-// over the other, a windscreen's water over the side windows.
+// From one pane's edge to the next pane's, round the pillar between both: what runs off the one there, or a
+// blade throws over, goes on over the other: a windscreen's water over the side windows.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class Pillar {
   Pillar(const PaneMap& from, const PaneMap& to);
   bool joins() const { return joins_; }
 
-  // From the pane it leaves: `share` of what ran off the tile in a tick.
+  // From the pane it leaves: `share` of what left the tile in a tick.
   void give(int64_t moment, size_t tile, int64_t volume_pl, double share);
   // The pane's oldest tick that has not run yet; kNone when all have.
   static constexpr int64_t kNone = std::numeric_limits<int64_t>::max();
