@@ -295,5 +295,51 @@ TEST(DropsOnFilm, thicknessIsSmoothFromTileToTile) {
   }
 }
 
+// How far a drop has gone down in a second and a half over a film that was none at first and is so thick, all
+// over the pane, after half a second; played here, and giving it nothing.
+double wayOver_m(double film_m, double radius_m) {
+  DropScene scene(rad(30), glass::Glass::uncoated);
+  scene.sim->attachFilm();
+  scene.place(0.0, 0.0, radius_m, rad(25));
+  const glass::PaneMap& map = scene.sim->map();
+  for (int i = 0; i < 180; ++i) {
+    scene.run(weather(0.0), kTickSeconds);
+    for (const glass::FilmOrder& order : scene.sim->fetchOrders()) {
+      glass::FilmReport report;
+      report.step = order.step;
+      report.taken_pl.assign(order.takes.size(), 0);
+      for (const float area_m2 : map.tileArea_m2()) {
+        const auto volume_pl =
+            static_cast<uint32_t>(i < 60 ? 0 : glass::picolitres(film_m * static_cast<double>(area_m2)));
+        report.tiles.push_back({-1, 0, volume_pl & 0xffffu, volume_pl >> 16u, 0, 0, 0, 0});
+      }
+      scene.sim->deliver(std::move(report));
+    }
+  }
+  const auto seen = scene.sim->snapshot();
+  if (seen->drops.size() != 1) return 1.0;  // off the pane
+  const glm::dvec2 start_m = glm::dvec2(map.grid().size) * map.grid().texel_m * 0.5;
+  return -glm::dot(glm::dvec2(seen->drops[0].position_m) - start_m, map.up());
+}
+
+// Furmidge's line between what rests and what goes (physics.md 3), drawn by what is left of the hold: half of
+// it over a film of three quarters of what wets the glass wholly.
+TEST(DropsOnFilm, areHeldAsFarAsTheGlassIsDry) {
+  const glass::Surface surface = glass::surfaceOf(glass::Glass::uncoated);
+  const double mean = 0.5 * (surface.advancing_rad + surface.receding_rad);
+  const auto critical_m = [&](double held) {  // rho V(R) g sin a = held k gamma 2 R (cos - cos)
+    const double hold = held * 24.0 / std::pow(kPi, 3.0) * 0.072 * 2.0 *
+                        (std::cos(surface.receding_rad) - std::cos(surface.advancing_rad));
+    return std::sqrt(hold / (1000.0 * 9.81 * std::sin(rad(30)) * glass::capShape(mean)));
+  };
+  constexpr double kRests_m = 1e-3, kGoes_m = 5e-3;
+  for (const double held : {1.0, 0.5, 0.25}) {
+    const double film_m = (1.0 - 0.5 * held) * surface.wetting_m;
+    EXPECT_LT(wayOver_m(film_m, 0.9 * critical_m(held)), kRests_m) << held;
+    EXPECT_GT(wayOver_m(film_m, 1.1 * critical_m(held)), kGoes_m) << held;
+  }
+  EXPECT_GT(wayOver_m(surface.wetting_m, 1.5e-3), kGoes_m) << "no contact line is left";
+}
+
 }  // namespace
 }  // namespace rg::test

@@ -70,6 +70,14 @@ void Drops::move(const DropWorld& world) {
   }
 }
 
+// Share of the hold that dry glass has on a drop. Where a film lies there is no contact line to hold it: it
+// is as much as drops that fall there stay drops, and none where they join the film (see impact()).
+double Drops::heldBy(const DropWorld& world, double film_m) const {
+  constexpr double kLeast = 0.02;  // by eye: so much holds even then
+  const bool wetted = world.film.attached() && film_m > 0.5 * surface_.wetting_m;
+  return wetted ? std::max(2.0 - 2.0 * film_m / surface_.wetting_m, kLeast) : 1.0;
+}
+
 // Not where even the greatest forces of its tile together are too weak and all of them are what they were
 // when it took its shape: most drops, most of the time.
 bool Drops::mayMove(const DropWorld& world, int slot) const {
@@ -79,15 +87,21 @@ bool Drops::mayMove(const DropWorld& world, int slot) const {
   const ForceField::About& about = world.forces.about(hold.tile);
   const glm::vec2 other =
       hold.acceleration_s2_m * about.acceleration_mps2 + hold.air2_s2_m2 * about.air2_m2_s2 - hold.share;
+  float least = kRounding;
+  if (world.film.thickest_m() > 0.5 * surface_.wetting_m) {
+    const int row = world.map.nodeCount().x;  // a tile has its first corner's number
+    const auto tile = static_cast<size_t>(hold.tile - hold.tile / row);
+    least *= static_cast<float>(heldBy(world, world.film.mostAbout_m(tile)));
+  }
   return hold.acceleration_s2_m * about.most_acceleration_mps2 + hold.air2_s2_m2 * about.most_air2_m2_s2 >
-             kRounding ||
+             least ||
          glm::dot(other, other) > kOther * kOther;
 }
 
-void Drops::brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double hold_n) {
+void Drops::brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double dry_hold_n) {
   Hold& hold = holds_[static_cast<size_t>(slot)];
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  hold.acceleration_s2_m = static_cast<float>(mass_kg / hold_n);
+  hold.acceleration_s2_m = static_cast<float>(mass_kg / dry_hold_n);
   hold.air2_s2_m2 = static_cast<float>(drag_s2_m2);
   hold.tile = world.forces.tileAt(world.map, drop.place_m);
   const ForceField::About& about = world.forces.about(hold.tile);
@@ -109,12 +123,13 @@ void Drops::slide(const DropWorld& world, int slot) {
   glm::dvec2 force_n = mass_kg * push.acceleration_mps2;
   if (air > 0.0) force_n += drag.perSquare_n(widthAcross_m(drop, push.air_mps / air)) * air * push.air_mps;
   const double force = glm::length(force_n);
-  const double hold_n = hold_per_m_ * width_m;
+  const double dry_hold_n = hold_per_m_ * width_m;
+  const double hold_n = dry_hold_n * heldBy(world, world.film.thickness_m(drop.texel));
   const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
   if (drop.pose != Pose::moving && force <= hold_n) {
     if (reshape(slot, toward, force, 0.0, kRestStride * kTickSeconds)) {
       const double from_its_side_n = drag.perSquare_n(2.0 * static_cast<double>(halfLength_m(drop)));
-      brace(world, slot, mass_kg, from_its_side_n / hold_n, hold_n);
+      brace(world, slot, mass_kg, from_its_side_n / dry_hold_n, dry_hold_n);
     } else {
       become(slot, Pose::uneasy);
     }

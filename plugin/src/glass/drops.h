@@ -142,11 +142,11 @@ class Drops {
     float half_m = 0.0f;  // its base's half length
     int32_t next = -1;    // in its cell's list
   };
-  // What forces that may set a braced drop going ask of it.
+  // What forces that may set a braced drop going ask of it, as shares of what dry glass holds it with.
   struct Hold {
-    float acceleration_s2_m = 0.0f;  // share of what holds it that an acceleration of 1 m/s^2 takes
-    float air2_s2_m2 = 0.0f;         // ... and air of 1 m/s, with its square
-    glm::vec2 share{0.0f};           // ... and the forces about it, of when it came to rest
+    float acceleration_s2_m = 0.0f;  // an acceleration of 1 m/s^2
+    float air2_s2_m2 = 0.0f;         // air of 1 m/s, with its square
+    glm::vec2 share{0.0f};           // the forces about it, of when it came to rest
     int32_t tile = 0;
 
     static void visit(auto& a, auto& hold) {
@@ -170,8 +170,9 @@ class Drops {
                  const std::vector<int32_t>& free, const std::vector<int32_t>& changed) const;
   void hangIn(const std::vector<Slot>& slots, const std::vector<int32_t>& order);
   void slide(const DropWorld& world, int slot);
-  void brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double hold_n);
+  void brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double dry_hold_n);
   bool mayMove(const DropWorld& world, int slot) const;
+  double heldBy(const DropWorld& world, double film_m) const;
   bool reshape(int slot, glm::dvec2 along, double force_n, double speed_mps, double seconds);
   void leaveTrail(const DropWorld& world, int slot, glm::dvec2 ahead, double speed_mps, glm::dvec2 metres);
   void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 ahead, glm::dvec2 metres);

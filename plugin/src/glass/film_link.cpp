@@ -28,6 +28,7 @@ FilmLink::FilmLink(const PaneMap& map, Ledger& ledger)
       bead_of_(static_cast<size_t>(map.texelCount()), -1),
       taken_in_(static_cast<size_t>(map.texelCount()), -1),
       tile_thickness_m_(map.tileArea_m2().size(), 0.0f),
+      most_about_m_(map.tileArea_m2().size(), 0.0f),
       tile_watered_(map.tileArea_m2().size(), false) {}
 
 void FilmLink::attach() {
@@ -57,6 +58,7 @@ void FilmLink::clear() {
   reports_.clear();
   report_takers_.clear();
   std::fill(tile_thickness_m_.begin(), tile_thickness_m_.end(), 0.0f);
+  std::fill(most_about_m_.begin(), most_about_m_.end(), 0.0f);
   thickest_m_ = 0.0f;
   std::fill(tile_watered_.begin(), tile_watered_.end(), false);
   film_pl_ = beads_pl_ = ridge_pl_ = 0;
@@ -236,7 +238,25 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
     tile_thickness_m_[i] = area_m2 > 0.0f ? static_cast<float>(cubicMetres(volume_pl)) / area_m2 : 0.0f;
     thickest_m_ = std::max(thickest_m_, tile_thickness_m_[i]);
   }
+  findMostAbout();
   return true;
+}
+
+// What thickness_m() tells on a tile lies between its own and its neighbours'.
+void FilmLink::findMostAbout() {
+  const glm::ivec2 count = map_->tileCount();
+  const auto most = [&](const std::vector<float>& of, size_t i, int at, int end, size_t step) {
+    float m = of[i];
+    if (at > 0) m = std::max(m, of[i - step]);
+    if (at + 1 < end) m = std::max(m, of[i + step]);
+    return m;
+  };
+  std::vector<float>& along = along_rows_m_;
+  along.resize(tile_thickness_m_.size());
+  for (size_t i = 0; i < along.size(); ++i)
+    along[i] = most(tile_thickness_m_, i, static_cast<int>(i) % count.x, count.x, 1);
+  for (size_t i = 0; i < along.size(); ++i)
+    most_about_m_[i] = most(along, i, static_cast<int>(i) / count.x, count.y, static_cast<size_t>(count.x));
 }
 
 // Tiles are 5 cm wide: told as steps their means would show, as rows of drops that end where one tile drowns

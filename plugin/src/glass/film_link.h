@@ -83,6 +83,9 @@ class FilmLink {
   // Of the film as last used: tiles' means, linear between their middles. Nowhere is it more than the
   // thickest's.
   double thickness_m(int texel) const;
+  double mostAbout_m(size_t tile) const {
+    return static_cast<double>(most_about_m_[tile]);
+  }  // anywhere on it
   double thickest_m() const { return static_cast<double>(thickest_m_); }
   bool watered(int texel) const;  // film or beads are in the tile, as last used
 
@@ -130,9 +133,10 @@ class FilmLink {
   std::deque<Ordered> ordered_;     // not yet reported
   std::deque<FilmReport> reports_;  // not yet used
   std::deque<std::vector<Taker>> report_takers_;
-  std::vector<float> tile_thickness_m_;
+  std::vector<float> tile_thickness_m_, most_about_m_, along_rows_m_;
   float thickest_m_ = 0.0f;
   std::vector<bool> tile_watered_;
+  void findMostAbout();
   void checkOrder(const saved::Reader& a) const;
   void findGathered();
   void writeReports(saved::Writer& a) const;

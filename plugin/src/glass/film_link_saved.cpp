@@ -120,6 +120,7 @@ void FilmLink::read(saved::Reader& a, const SweptBy& swept_by) {
   tile_thickness_m_ = std::move(thickness_m);
   thickest_m_ = 0.0f;
   for (const float m : tile_thickness_m_) thickest_m_ = std::max(thickest_m_, m);
+  findMostAbout();
   for (size_t i = 0; i < tile_watered_.size(); ++i) {
     bool watered = false;
     a(watered);
