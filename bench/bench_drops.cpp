@@ -65,7 +65,7 @@ void DropTick(benchmark::State& state) {
   Windscreen windscreen(static_cast<int>(state.range(0)));
   double live = 0.0, sliding = 0.0, counts = 0.0, total_s = 0.0;
   int ticks = kTicksOfRun;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     if (ticks == kTicksOfRun) {
       windscreen.begin();
       ticks = 0;
@@ -95,7 +95,7 @@ void RainTick(benchmark::State& state) {
   for (int i = 0; i < kTicksUntilSteady; ++i) windscreen.tick();
   double live = 0.0, counts = 0.0;
   int ticks = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     state.SetIterationTime(windscreen.tick());
     if (++ticks % kTicksToCount != 0) continue;
     ++counts;

@@ -136,7 +136,7 @@ void update(benchmark::State& state, Wind wind) {
   const FieldStats before = drive.field.stats();
   uint64_t cut = 0, cut_bytes = 0;  // born on the way back
   double live = 0.0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     drive.upload.slots.clear();
     drive.upload.records.clear();
     drive.tick();
@@ -218,7 +218,7 @@ void RainUpdateNaive(benchmark::State& state) {
   }
   const float depth = drops.high_x - drops.low_x, height = drops.high_z - drops.low_z;
   float eye_x = static_cast<float>(drive.eye_x);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     eye_x += static_cast<float>(load.speed_mps * kTickSeconds);
     for (size_t i = 0; i < number; ++i) {
       float x = drops.x[i], z = drops.z[i] - drops.fall[i];
@@ -249,7 +249,7 @@ BENCHMARK(RainUpdateNaive)->Apply(rainLoads);
 void RecordCopy(benchmark::State& state) {
   const std::vector<RainDrop> from(static_cast<size_t>(state.range(0)), RainDrop{1, 2, 3, 4, 5, 1e-3f, 6, 7});
   std::vector<RainDrop> to(from.size());
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     std::memcpy(to.data(), from.data(), from.size() * sizeof(RainDrop));
     benchmark::DoNotOptimize(to.data());
     benchmark::ClobberMemory();

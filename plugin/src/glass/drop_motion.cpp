@@ -231,7 +231,7 @@ void Drops::takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double texel_m = world.map.grid().texel_m;
   const glm::dvec2 side(-ahead.y, ahead.x);
-  const int reach = std::min(static_cast<int>(0.5 * width_m / texel_m + 0.5), kMostAside);
+  const int reach = std::min(static_cast<int>(std::lround(0.5 * width_m / texel_m)), kMostAside);
   for (int k = -reach; k <= reach; ++k) {
     const int texel = world.map.texelAt(place_m + k * texel_m * side);
     if (texel < 0 || !world.film.watered(texel)) continue;

@@ -1,5 +1,4 @@
 // A pane as a saved state: told apart by its glass, and only taken where its ledger closes.
-#include <ranges>
 #include <stdexcept>
 
 #include "glass/film_state.h"
@@ -153,10 +152,11 @@ std::vector<bool> PaneSim::State::hiddenOnFilm(const saved::Reader& a, const Fil
                                                size_t gone_on_film) {
   std::vector<bool> hidden(static_cast<size_t>(map.texelCount()), false);
   for (size_t i = 0; i < gone_on_film; ++i) hidden[static_cast<size_t>(slide.texel(map, i))] = true;
-  for (const SlidTexel& slid_now : std::views::reverse(link.slidInThisStep())) {
-    const auto texel = static_cast<size_t>(slid_now.texel);
-    a.require(hidden[texel] != slid_now.shown, "a texel is hidden or shown that is so already");
-    hidden[texel] = slid_now.shown;
+  const std::vector<SlidTexel>& slid_now = link.slidInThisStep();
+  for (auto it = slid_now.rbegin(); it != slid_now.rend(); ++it) {
+    const auto texel = static_cast<size_t>(it->texel);
+    a.require(hidden[texel] != it->shown, "a texel is hidden or shown that is so already");
+    hidden[texel] = it->shown;
   }
   return hidden;
 }

@@ -164,7 +164,7 @@ class Reader : public Archive<Reader> {
   bool commits() const { return commits_; }
   size_t left() const { return rest_.size(); }
   // What is read now, for messages.
-  void enter(std::string part) { part_ = std::move(part); }
+  void enter(const std::string& part) { part_ = part; }
   [[noreturn]] void refuse(const std::string& what) const { throw Refused(part_ + ": " + what); }
   void require(bool met, const char* what) const {
     if (!met) refuse(what);
