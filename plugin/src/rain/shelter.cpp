@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rg::rain {
 namespace {
@@ -33,19 +34,25 @@ Span timesInside(std::span<const Plane> planes, const dvec3& p, const dvec3& v, 
   return span;
 }
 
-bool meetsBox(const Box& box, const dvec3& half, const dvec3& p, const dvec3& v, double from, double to) {
+// The same of a box that is `half` larger to all sides.
+Span timesInBox(const Box& box, const dvec3& half, const dvec3& p, const dvec3& v, double from, double to) {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.low[axis] - half[axis] - p[axis], high = box.high[axis] + half[axis] - p[axis];
     if (v[axis] == 0.0) {
-      if (low > 0.0 || high < 0.0) return false;
+      if (low > 0.0 || high < 0.0) return {1.0, 0.0};
       continue;
     }
     const double a = low / v[axis], b = high / v[axis];
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));
-    if (from > to) return false;
+    if (from > to) return {1.0, 0.0};
   }
-  return true;
+  return {from, to};
+}
+
+bool meetsBox(const Box& box, const dvec3& half, const dvec3& p, const dvec3& v, double from, double to) {
+  const Span span = timesInBox(box, half, p, v, from, to);
+  return span.enter <= span.leave;
 }
 
 bool meetsSphere(const dvec3& to_centre, const dvec3& v, double from, double to, double radius) {
@@ -74,8 +81,8 @@ PathPiece wholeOf(const ClassPath& path) {
 
 // A turning body sees a straight path bent: by 2 w x v + w x (w x r) per s2 (Coriolis and the centrifuge).
 // Chords of so many seconds stay within half a millimetre of it (the sagitta is a t^2 / 8).
+constexpr double kSagitta_m = 0.5e-3;
 double chord_s(double turn_radps, double speed_mps, double radius_m) {
-  constexpr double kSagitta_m = 0.5e-3;
   const double bend_mps2 = turn_radps * (2.0 * speed_mps + turn_radps * radius_m);
   return std::sqrt(8.0 * kSagitta_m / bend_mps2);
 }
@@ -315,11 +322,27 @@ double Shelter::entryDuring(const Body& body, const BodyPath::Piece& motion, con
     return intoBody(movedOn(motion.pose, t - motion.from_s), from_m + velocity * (t - from_s));
   };
   const double turn = glm::length(motion.pose.angular_velocity_radps), end = from_s + near.leave;
-  const double step = std::max(chord_s(turn, glm::length(past), body.radius_m), kLeastChord_s);
+  const double chord = chord_s(turn, glm::length(past), body.radius_m), step = std::max(chord, kLeastChord_s);
   double begin = from_s + near.enter;
   dvec3 a = inBody(begin);
-  while (begin < end) {
+  Span close{begin, end};
+  if (end - begin > step) {
+    // All chords lie as near to one over all of them as its own sagitta: most pass the box by so far that
+    // this alone tells it.
+    const double whole = end - begin, longer = whole / chord;
+    close = timesInBox(body.box, 2.0 * kRounding_m + kSagitta_m * longer * longer, a,
+                       (inBody(end) - a) / whole, 0.0, whole);
+    if (close.enter > close.leave) return kNever_s;
+    close = {begin + close.enter, begin + close.leave};
+  }
+  for (bool left_out = false; begin < end && begin <= close.leave;) {
     const double next = std::min(begin + step, end);
+    if (next < close.enter) {
+      left_out = true;
+      begin = next;
+      continue;
+    }
+    if (std::exchange(left_out, false)) a = inBody(begin);
     const dvec3 b = inBody(next), v = (b - a) / (next - begin);
     double first = kNever_s;
     // Most of those that come near a car pass it by.
