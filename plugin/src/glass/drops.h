@@ -236,12 +236,13 @@ class Drops {
   std::vector<Hold> holds_;
   SlotSet moving_, uneasy_, braced_;
   struct Cell {
-    int32_t first = -1;  // of its drops
-    int32_t block = 0;
+    int32_t first = -1;     // of its drops
+    float widest_m = 0.0f;  // none of them has a greater half length
   };
   std::vector<Cell> cells_;
+  std::vector<int32_t> block_of_;   // of each cell
   static constexpr int kBlock = 8;  // cells along a block's side
-  std::vector<float> widest_m_;     // of each block's drops none has a greater radius
+  std::vector<float> widest_m_;     // the same of each block's
   glm::ivec2 block_count_{0};
   static constexpr double kCell_m = 8e-3;  // of the neighbour grid: few drops are wider
   static constexpr float kPerMetre = static_cast<float>(1.0 / kCell_m);
