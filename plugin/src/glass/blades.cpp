@@ -162,9 +162,7 @@ void Blades::meet(const DropWorld& world, Drops& drops, const Wiper& wiper, cons
   const double above_m3 =
       e * capVolumeAbove(static_cast<double>(drop.height_m), radius_m / std::sqrt(e), wiper.info().lift_m);
   const int64_t taken_pl = drops.cut(slot, std::min(picolitres(above_m3), drop.volume_pl));
-  const auto ahead_rad = [&](int texel) {
-    return wiper.ahead_rad(glm::dvec3(world.map.texel(texel).position_m), sweep, c.angle_rad[k]);
-  };
+  const auto ahead_rad = [&](int texel) { return wiper.ahead_rad(texel, sweep, c.angle_rad[k]); };
   int64_t carried_pl = taken_pl;
   const auto give = [&](int texel, int64_t volume_pl) {
     world.film.add(texel, volume_pl);

@@ -50,10 +50,12 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
   std::vector<Entry> entries;
   const Wear wear(info.residual_film_m, info.blade_m, info.wear, seed);
   int most = 1;
+  crossed_from_.reserve(static_cast<size_t>(map.texelCount()) + 1);
   for (int i = 0; i < map.texelCount(); ++i) {
+    crossed_from_.push_back(static_cast<uint32_t>(crossed_rad_.size()));
     if (!map.inside(i)) continue;
-    const glm::dvec3 place(map.texel(i).position_m);
-    const Crossings c = crossingsAt(place);
+    const Crossings c = crossingsAt(glm::dvec3(map.texel(i).position_m));
+    crossed_rad_.insert(crossed_rad_.end(), c.angle_rad, c.angle_rad + c.count);
     const auto area_m2 = static_cast<double>(map.texel(i).area_m2);
     for (int k = 0; k < c.count; ++k) {
       const shared::SweptTexel swept{i, static_cast<int>(picolitres(wear.residual_m(c.along_m[k]) * area_m2)),
@@ -65,6 +67,7 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
     }
     most = std::max(most, c.count);
   }
+  crossed_from_.push_back(static_cast<uint32_t>(crossed_rad_.size()));
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.pass, a.piece, a.angle, a.swept.texel) <
            std::tie(b.pass, b.piece, b.angle, b.swept.texel);
@@ -229,12 +232,13 @@ SweptStrip Wiper::stripOf(const Sweep& sweep) const {
           .turned_rad = turned_rad};
 }
 
-std::optional<double> Wiper::ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const {
-  const Crossings c = crossingsAt(place_m);
-  if (c.count == 0) return std::nullopt;
-  const double nearest = *std::min_element(c.angle_rad, c.angle_rad + c.count, [met_rad](double a, double b) {
-    return std::abs(a - met_rad) < std::abs(b - met_rad);
-  });
+std::optional<double> Wiper::ahead_rad(int texel, const Sweep& sweep, double met_rad) const {
+  const auto i = static_cast<size_t>(texel);
+  const double *first = crossed_rad_.data() + crossed_from_[i],
+               *last = crossed_rad_.data() + crossed_from_[i + 1];
+  if (first == last) return std::nullopt;
+  const double nearest = *std::min_element(
+      first, last, [met_rad](double a, double b) { return std::abs(a - met_rad) < std::abs(b - met_rad); });
   return sweep.now_rad > sweep.before_rad ? nearest - sweep.before_rad : sweep.before_rad - nearest;
 }
 

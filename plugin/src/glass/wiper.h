@@ -95,9 +95,9 @@ class Wiper {
   SweptStrip stripOf(const Sweep& sweep) const;
   const std::vector<TileInPlane>& tiles() const { return tiles_; }  // as of the map
 
-  // How far the blade has to turn, from where a sweep begins that meets something at `met_rad`, to this place
-  // beside that; none: it does not come by. Less than 0: it has passed it.
-  std::optional<double> ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const;
+  // How far the blade has to turn, from where a sweep begins that meets something at `met_rad`, to this
+  // texel's middle beside that; none: it does not come by. Less than 0: it has passed it.
+  std::optional<double> ahead_rad(int texel, const Sweep& sweep, double met_rad) const;
 
   // Texels next to the blade where it turns round at `extreme_rad`, ahead of it in its old direction, for
   // each piece; none: the water leaves the glass.
@@ -123,6 +123,9 @@ class Wiper {
   std::shared_ptr<const std::vector<shared::SweptTexel>> swept_;
   std::vector<double> angles_;  // of swept_
   std::vector<size_t> starts_;  // of each piece's part of swept_, pass by pass; and its end
+  // At which angles it crosses a texel's middle, and where a texel's begin.
+  std::vector<double> crossed_rad_;
+  std::vector<uint32_t> crossed_from_;
   std::vector<TileInPlane> tiles_;
   std::vector<std::pair<double, double>> segment_angles_;
 };
