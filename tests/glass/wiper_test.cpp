@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "gl_fixture.h"
 #include "scene.h"
+#include "shared/hash.glsl"
 
 namespace rg::test {
 namespace {
@@ -282,28 +284,62 @@ TEST_F(Wiping, leavesNoDropUnderTheBladesWay) {
   }
 }
 
-// Drops on other tiles are not looked at: no texel that a sweep may cross lies on one of them.
-TEST(WiperTiles, knowEveryTexelThatASweepMayCross) {
-  const glass::PaneMap map(paneInfo(windscreen(0.5, 0.4)));
-  constexpr double kRadius_m = 3e-3;
-  const int columns = map.grid().size.x;
+// Only drops that the tiles let pass are looked at: each whose middle the blade crosses in a sweep is among
+// them, wherever on its texel it lies and however wide it is, and few others are.
+TEST(WiperTiles, letEveryDropPassThatASweepCrosses) {
+  const glass::PaneMap map(paneInfo(windscreen(1.2, 0.6, rad(30), 0.05)));
+  constexpr double kWidest_m = 30e-3;
   for (const Linkage& linkage : kLinkages) {
     const glass::Wiper wiper(wiperOf(linkage), map, 0);
-    for (double angle = linkage.from_rad; angle < linkage.to_rad; angle += rad(7)) {
-      const glass::SweptStrip strip = wiper.stripOf({angle, angle + rad(2)});
-      const std::vector<bool> near = wiper.tilesNear(strip, kRadius_m);
-      int left_out = 0;
-      for (int i = 0; i < map.texelCount(); ++i) {
-        if (!map.inside(i)) continue;
-        const glm::ivec2 tile = glm::ivec2(i % columns, i / columns) / shared::kTileSize;
-        const bool known = near[static_cast<size_t>(tile.y * map.tileCount().x + tile.x)];
-        if (known) continue;
-        ++left_out;
-        ASSERT_FALSE(wiper.mayCross(i, strip, kRadius_m)) << linkage.name << " texel " << i;
+    size_t crossed = 0, passed = 0, looked_at = 0;
+    for (double angle = linkage.from_rad; angle < linkage.to_rad; angle += rad(11)) {
+      const glass::Sweep sweep{angle, angle + rad(8)};
+      const glass::SweptStrip strip = wiper.stripOf(sweep);
+      for (int i = 0; i < map.texelCount(); i += 7) {
+        const auto n = static_cast<uint32_t>(i);
+        const glm::dvec2 in_texel(shared::unitFloat(shared::pcg(n)), shared::unitFloat(shared::pcg(n + 1u)));
+        const glm::dvec2 place_m = map.middleOf(i) + map.grid().texel_m * (in_texel - 0.5);
+        const double radius_m = i % 2 == 0 ? kWidest_m : 1e-3;
+        const auto on_glass = map.vehicleFromGrid(place_m);
+        if (!on_glass) continue;
+        const glass::TileInPlane& tile = wiper.tiles()[map.tileOf(i)];
+        const bool passes = tile.isNear(strip, kWidest_m) && tile.mayCross(strip, place_m, radius_m);
+        const glass::Crossings c = wiper.crossingsAt(*on_glass, radius_m);
+        const bool is_crossed = std::any_of(c.angle_rad, c.angle_rad + c.count,
+                                            [&](double at_rad) { return sweep.covers(at_rad); });
+        ASSERT_TRUE(passes || !is_crossed) << linkage.name << " texel " << i;
+        crossed += is_crossed, passed += passes, ++looked_at;
       }
-      EXPECT_GT(left_out, 0) << "tiles tell nothing apart";
     }
+    EXPECT_GT(crossed, looked_at / 1000) << linkage.name;
+    // A sweep is a wedge, and the strip as wide everywhere as its ends' turns would make it.
+    EXPECT_LT(passed, 6 * crossed) << linkage.name;
   }
+}
+
+// Wherever on a bowed pane a blade stands, the tile there knows it to be there.
+TEST(WiperTiles, knowWhereTheirGlassIs) {
+  const glass::PaneMap map(paneInfo(windscreen(1.2, 0.6, rad(30), 0.1)));
+  glass::WiperInfo info = wiperOf(kLinkages[0]);
+  // Its plane cuts the glass, and sees it bowed.
+  info.axis = glm::normalize(info.axis + 0.3 * glm::cross(info.axis, info.rest_direction));
+  const glass::Wiper wiper(info, map, 0);
+  constexpr double kRounding_m = 1e-6;
+  const glm::dvec3 side = glm::cross(info.axis, info.rest_direction);
+  double farthest_m = 0.0;
+  for (int i = 0; i < map.texelCount(); ++i) {
+    const glm::dvec2 corner_m = map.middleOf(i) + 0.499 * map.grid().texel_m;
+    const auto on_glass = map.vehicleFromGrid(corner_m);
+    if (!on_glass) continue;
+    const glm::dvec3 d = *on_glass - info.pivot_m;
+    const glass::SweptStrip there{.middle_m = {glm::dot(d, info.rest_direction), glm::dot(d, side)},
+                                  .along = {1.0, 0.0},
+                                  .near_m = kRounding_m};
+    const glass::TileInPlane& tile = wiper.tiles()[map.tileOf(i)];
+    ASSERT_TRUE(tile.isNear(there, 0.0) && tile.mayCross(there, corner_m, 0.0)) << "texel " << i;
+    farthest_m = std::max(farthest_m, tile.off_m);
+  }
+  EXPECT_LT(farthest_m, map.grid().texel_m) << "or a drop's texel would tell as much";
 }
 
 }  // namespace

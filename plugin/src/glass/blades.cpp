@@ -10,8 +10,7 @@
 namespace rg::glass {
 namespace {
 constexpr double kMostTurn = 2.0;
-constexpr double kAbout = 1.1;    // texels: so near to any place there are three or four texels' middles
-constexpr double kWide_m = 3e-3;  // drops of a greater radius are few
+constexpr double kAbout = 1.1;  // texels: so near to any place there are three or four texels' middles
 }  // namespace
 
 void Blades::set(uint32_t id, const WiperInfo& info, const PaneMap& map, FilmLink& film) {
@@ -123,18 +122,20 @@ void Blades::move(const DropWorld& world, Drops& drops, Blade& blade, double to_
   const Wiper& wiper = *blade.wiper;
   world.film.sweep(wiper.swept(), wiper.ranges(sweep), wiper.slot() * shared::kBladeSegments,
                    direction < 0.0);
+  findMet(drops, wiper, sweep);
+  for (size_t word = 0; word < met_.words(); ++word)
+    forEachSlot(word, met_.word(word), [&](int slot) { meet(world, drops, wiper, sweep, slot); });
+}
+
+// Drops that the blade may cross, which is to be told by the place of each: few of all that there are.
+void Blades::findMet(const Drops& drops, const Wiper& wiper, const Sweep& sweep) {
   const SweptStrip strip = wiper.stripOf(sweep);
-  const std::vector<bool> tiles_near = wiper.tilesNear(strip, kWide_m);
-  const double tiles_per_m = 1.0 / (world.map.grid().texel_m * shared::kTileSize);
-  const std::vector<Drop>& all = drops.all();
-  for (size_t slot = 0; slot < all.size(); ++slot) {
-    const Drop& drop = all[slot];
-    if (drop.volume_pl <= 0) continue;
-    const glm::ivec2 tile = glm::min(glm::ivec2(drop.place_m * tiles_per_m), world.map.tileCount() - 1);
-    const bool near = tiles_near[static_cast<size_t>(tile.y * world.map.tileCount().x + tile.x)];
-    const auto radius_m = static_cast<double>(drop.base_radius_m);
-    if ((near || radius_m > kWide_m) && wiper.mayCross(drop.texel, strip, radius_m))
-      meet(world, drops, wiper, sweep, static_cast<int>(slot));
+  met_.clear();
+  for (const TileInPlane& tile : wiper.tiles()) {
+    if (!tile.isNear(strip, static_cast<double>(drops.widest_m()))) continue;
+    drops.forEachIn(tile.low_m, tile.high_m, [&](int slot, glm::vec2 place_m, float half_m) {
+      if (tile.mayCross(strip, glm::dvec2(place_m), static_cast<double>(half_m))) met_.put(slot, true);
+    });
   }
 }
 
@@ -161,9 +162,7 @@ void Blades::meet(const DropWorld& world, Drops& drops, const Wiper& wiper, cons
   const double above_m3 =
       e * capVolumeAbove(static_cast<double>(drop.height_m), radius_m / std::sqrt(e), wiper.info().lift_m);
   const int64_t taken_pl = drops.cut(slot, std::min(picolitres(above_m3), drop.volume_pl));
-  const auto ahead_rad = [&](int texel) {
-    return wiper.ahead_rad(glm::dvec3(world.map.texel(texel).position_m), sweep, c.angle_rad[k]);
-  };
+  const auto ahead_rad = [&](int texel) { return wiper.ahead_rad(texel, sweep, c.angle_rad[k]); };
   int64_t carried_pl = taken_pl;
   const auto give = [&](int texel, int64_t volume_pl) {
     world.film.add(texel, volume_pl);

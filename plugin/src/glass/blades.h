@@ -41,13 +41,15 @@ class Blades {
       a.within(blade.fastest_radps, 0.0, 1e4);
     }
   };
-  static void move(const DropWorld& world, Drops& drops, Blade& blade, double to_rad);
+  void move(const DropWorld& world, Drops& drops, Blade& blade, double to_rad);
+  void findMet(const Drops& drops, const Wiper& wiper, const Sweep& sweep);
   static void meet(const DropWorld& world, Drops& drops, const Wiper& wiper, const Sweep& sweep, int slot);
   static void turn(const DropWorld& world, Blade& blade);
   static void layDown(FilmLink& film, Blade& blade, const Surface* surface);
   static void leaveOffGlass(FilmLink& film, const Blade& blade);
 
   std::map<uint32_t, Blade> blades_;
+  SlotSet met_;  // by a blade on its way, or nearly
 };
 
 }  // namespace rg::glass

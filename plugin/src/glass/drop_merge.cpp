@@ -38,6 +38,7 @@ void Drops::fetchAbout(int slot) const {
 void Drops::findWidest() {
   largest_radius_m_ = 0.0f;
   std::fill(widest_m_.begin(), widest_m_.end(), 0.0f);
+  for (Cell& cell : cells_) cell.widest_m = 0.0f;
   for (size_t slot = 0; slot < slots_.items.size(); ++slot) {
     if (slots_.items[slot].volume_pl != 0) noteWidth(static_cast<int>(slot));
   }
@@ -46,7 +47,10 @@ void Drops::findWidest() {
 void Drops::noteWidth(int slot) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const float half_m = nears_[static_cast<size_t>(slot)].half_m = halfLength_m(drop);
-  float& block_m = widest_m_[static_cast<size_t>(cells_[static_cast<size_t>(drop.cell)].block)];
+  const auto cell = static_cast<size_t>(drop.cell);
+  float& cell_m = cells_[cell].widest_m;
+  cell_m = std::max(cell_m, half_m);
+  float& block_m = widest_m_[static_cast<size_t>(block_of_[cell])];
   block_m = std::max(block_m, half_m);
   largest_radius_m_ = std::max(largest_radius_m_, half_m);
 }
@@ -81,9 +85,14 @@ int Drops::firstAbout(const DropWorld& world, glm::dvec2 place_m, float own_m, f
     const float dy_m = scale.y * std::max(0.0f, std::max(below_m, -below_m - row_m));
     const float aside_m = std::sqrt(std::max(0.0f, far2_m2 - dy_m * dy_m)) * per_metre.x;
     const Cell* row = &cells_[static_cast<size_t>(y * cell_count_.x)];
-    const Cell* last = row + columnAt(at_m.x + aside_m);
-    for (const Cell* cell = row + columnAt(at_m.x - aside_m); cell <= last; ++cell) {
-      for (int slot = cell->first; slot >= 0;) {
+    const int right = columnAt(at_m.x + aside_m);
+    for (int x = columnAt(at_m.x - aside_m); x <= right; ++x) {
+      const Cell& cell = row[x];
+      const float left_m = static_cast<float>(x) * row_m - at_m.x;
+      const float dx_m = scale.x * std::max(0.0f, std::max(left_m, -left_m - row_m));
+      const float reach_m = overlap * (own_m + cell.widest_m) + kRounding_m;
+      if (dx_m * dx_m + dy_m * dy_m >= reach_m * reach_m) continue;  // too far from all in it
+      for (int slot = cell.first; slot >= 0;) {
         const Near& near = nears_[static_cast<size_t>(slot)];
         const glm::vec2 away_m = (near.place_m - at_m) * scale;
         const float near_m = overlap * (own_m + near.half_m) + kRounding_m;

@@ -72,7 +72,7 @@ Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
   widest_m_.assign(static_cast<size_t>(block_count_.x * block_count_.y), 0.0f);
   for (int y = 0; y < cell_count_.y; ++y) {
     for (int x = 0; x < cell_count_.x; ++x)
-      cells_[static_cast<size_t>(y * cell_count_.x + x)].block = y / kBlock * block_count_.x + x / kBlock;
+      block_of_.push_back(y / kBlock * block_count_.x + x / kBlock);
   }
 }
 
@@ -83,7 +83,7 @@ void Drops::clear() {
   slots_.free.clear();
   for (SlotSet* set : {&moving_, &uneasy_, &braced_}) set->clear();
   changed_.clear();
-  for (Cell& cell : cells_) cell.first = -1;
+  std::fill(cells_.begin(), cells_.end(), Cell{});
   std::fill(widest_m_.begin(), widest_m_.end(), 0.0f);
   live_ = 0;
   largest_radius_m_ = 0.0f;
@@ -117,9 +117,11 @@ void Drops::link(int slot) {
 }
 
 void Drops::unlink(int slot) {
-  int32_t* at = &cells_[static_cast<size_t>(slots_.items[static_cast<size_t>(slot)].cell)].first;
+  Cell& cell = cells_[static_cast<size_t>(slots_.items[static_cast<size_t>(slot)].cell)];
+  int32_t* at = &cell.first;
   while (*at != slot) at = &nears_[static_cast<size_t>(*at)].next;
   *at = nears_[static_cast<size_t>(slot)].next;
+  if (cell.first < 0) cell.widest_m = 0.0f;
 }
 
 void Drops::moveTo(int slot, glm::dvec2 place_m) {

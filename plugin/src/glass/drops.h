@@ -103,6 +103,21 @@ class Drops {
   int64_t volume_pl() const;  // summed afresh
   const std::vector<Drop>& all() const { return slots_.items; }
   void clear();
+  float widest_m() const { return largest_radius_m_; }  // no drop's base has a greater half length
+  // Calls each(slot, place, half length) for those whose middle lies in a box of the grid, and a few about.
+  template <class Each>
+  void forEachIn(glm::dvec2 low_m, glm::dvec2 high_m, const Each& each) const {
+    const glm::vec2 low(low_m), high(high_m);
+    for (int y = rowAt(low.y); y <= rowAt(high.y); ++y) {
+      for (int x = columnAt(low.x); x <= columnAt(high.x); ++x) {
+        for (int slot = cells_[static_cast<size_t>(y * cell_count_.x + x)].first; slot >= 0;) {
+          const Near& near = nears_[static_cast<size_t>(slot)];
+          each(slot, near.place_m, near.half_m);
+          slot = near.next;
+        }
+      }
+    }
+  }
 
   // A drop of this base; its contact angle is kept between receding and advancing by a wider or narrower base
   // unless `as_told`. Returns its slot, or -1 when there is no room (nothing happened).
@@ -222,12 +237,13 @@ class Drops {
   std::vector<Hold> holds_;
   SlotSet moving_, uneasy_, braced_;
   struct Cell {
-    int32_t first = -1;  // of its drops
-    int32_t block = 0;
+    int32_t first = -1;     // of its drops
+    float widest_m = 0.0f;  // none of them has a greater half length
   };
   std::vector<Cell> cells_;
+  std::vector<int32_t> block_of_;   // of each cell
   static constexpr int kBlock = 8;  // cells along a block's side
-  std::vector<float> widest_m_;     // of each block's drops none has a greater radius
+  std::vector<float> widest_m_;     // the same of each block's
   glm::ivec2 block_count_{0};
   static constexpr double kCell_m = 8e-3;  // of the neighbour grid: few drops are wider
   static constexpr float kPerMetre = static_cast<float>(1.0 / kCell_m);

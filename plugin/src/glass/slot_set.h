@@ -20,6 +20,7 @@ class SlotSet {
     words_[word] = in ? words_[word] | bit : words_[word] & ~bit;
   }
   void clear() { words_.clear(); }
+  size_t words() const { return words_.size(); }  // none beyond has any
   uint64_t word(size_t i) const { return i < words_.size() ? words_[i] : 0; }
 
  private:

@@ -16,19 +16,10 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 double wrapped(double angle_rad) { return angle_rad - kTurn * std::round(angle_rad / kTurn); }
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-
 glm::dvec2 direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 double bladeDirection_rad(const WiperInfo& info, double angle_rad) {
   return info.blade_angle_rad + (1.0 + info.blade_turn) * angle_rad;
-}
-
-bool reaches(const SweptStrip& strip, const glm::dvec2& place_m, double radius_m) {
-  const double near_m = strip.near_m + radius_m;
-  const glm::dvec2 d = place_m - strip.middle_m;
-  return std::abs(cross(strip.along, d)) <= near_m &&
-         std::abs(glm::dot(strip.along, d)) <= strip.half_m + near_m;
 }
 
 // Where f changes its sign between a and b: halving until doubles end.
@@ -59,12 +50,12 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
   std::vector<Entry> entries;
   const Wear wear(info.residual_film_m, info.blade_m, info.wear, seed);
   int most = 1;
-  in_plane_m_.reserve(static_cast<size_t>(map.texelCount()));
+  crossed_from_.reserve(static_cast<size_t>(map.texelCount()) + 1);
   for (int i = 0; i < map.texelCount(); ++i) {
-    const glm::dvec3 place(map.texel(i).position_m);
-    in_plane_m_.emplace_back(inPlane(place));
+    crossed_from_.push_back(static_cast<uint32_t>(crossed_rad_.size()));
     if (!map.inside(i)) continue;
-    const Crossings c = crossingsAt(place);
+    const Crossings c = crossingsAt(glm::dvec3(map.texel(i).position_m));
+    crossed_rad_.insert(crossed_rad_.end(), c.angle_rad, c.angle_rad + c.count);
     const auto area_m2 = static_cast<double>(map.texel(i).area_m2);
     for (int k = 0; k < c.count; ++k) {
       const shared::SweptTexel swept{i, static_cast<int>(picolitres(wear.residual_m(c.along_m[k]) * area_m2)),
@@ -74,6 +65,7 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
     }
     most = std::max(most, c.count);
   }
+  crossed_from_.push_back(static_cast<uint32_t>(crossed_rad_.size()));
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.pass, a.piece, a.angle, a.swept.texel) <
            std::tie(b.pass, b.piece, b.angle, b.swept.texel);
@@ -94,29 +86,50 @@ Wiper::Wiper(const WiperInfo& info, const PaneMap& map, int slot, uint32_t seed)
 }
 
 void Wiper::findTiles(const PaneMap& map) {
-  const int columns = map.grid().size.x;
+  const glm::ivec2 count = map.tileCount();
+  const double tile_m = texel_m_ * shared::kTileSize;
+  tiles_.resize(static_cast<size_t>(count.x * count.y));
+  for (size_t i = 0; i < tiles_.size(); ++i) {
+    const int n = static_cast<int>(i);
+    tiles_[i].low_m = tile_m * glm::dvec2(n % count.x, n / count.x);
+    tiles_[i].high_m = tiles_[i].low_m + tile_m;
+  }
   const auto eachTexel = [&](const auto& visit) {
     for (int i = 0; i < map.texelCount(); ++i) {
-      const glm::ivec2 tile = glm::ivec2(i % columns, i / columns) / shared::kTileSize;
-      if (map.inside(i))
-        visit(static_cast<size_t>(tile.y * map.tileCount().x + tile.x),
-              glm::dvec2(in_plane_m_[static_cast<size_t>(i)]));
+      if (map.inside(i)) visit(tiles_[map.tileOf(i)], map.texel(i), map.middleOf(i));
     }
   };
-  tiles_.resize(static_cast<size_t>(map.tileCount().x * map.tileCount().y));
-  std::vector<int> counts(tiles_.size());
-  eachTexel([&](size_t tile, const glm::dvec2& place_m) {
-    tiles_[tile].middle_m += place_m;
-    ++counts[tile];
+  // Means first.
+  std::vector<double> texels(tiles_.size(), 0.0);
+  eachTexel([&](TileInPlane& tile, const PaneTexel& texel, const glm::dvec2& middle_m) {
+    tile.middle_m += middle_m;
+    tile.place_m += inPlane(glm::dvec3(texel.position_m));
+    tile.along_x += turnedInPlane(glm::dvec3(texel.along_x));
+    tile.along_y += turnedInPlane(glm::dvec3(texel.along_y));
+    ++texels[static_cast<size_t>(&tile - tiles_.data())];
   });
-  for (size_t tile = 0; tile < tiles_.size(); ++tile) tiles_[tile].middle_m /= std::max(counts[tile], 1);
-  eachTexel([&](size_t tile, const glm::dvec2& place_m) {
-    tiles_[tile].radius_m = std::max(tiles_[tile].radius_m, glm::distance(place_m, tiles_[tile].middle_m));
+  for (size_t i = 0; i < tiles_.size(); ++i) {
+    for (glm::dvec2* sum : {&tiles_[i].middle_m, &tiles_[i].place_m, &tiles_[i].along_x, &tiles_[i].along_y})
+      *sum /= std::max(texels[i], 1.0);
+  }
+  // Of each texel's corners: between them all is straight.
+  eachTexel([&](TileInPlane& tile, const PaneTexel& texel, const glm::dvec2& middle_m) {
+    for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
+      const glm::dvec2 d = 0.5 * texel_m_ * corner, from_middle = middle_m + d - tile.middle_m;
+      const glm::dvec2 place_m = inPlane(glm::dvec3(texel.position_m) + d.x * glm::dvec3(texel.along_x) +
+                                         d.y * glm::dvec3(texel.along_y));
+      const glm::dvec2 told_m = tile.place_m + from_middle.x * tile.along_x + from_middle.y * tile.along_y;
+      tile.off_m = std::max(tile.off_m, glm::distance(place_m, told_m));
+      tile.radius_m = std::max(tile.radius_m, glm::distance(place_m, tile.place_m));
+    }
   });
 }
 
 glm::dvec2 Wiper::inPlane(const glm::dvec3& vehicle_m) const {
-  const glm::dvec3 d = vehicle_m - info_.pivot_m;
+  return turnedInPlane(vehicle_m - info_.pivot_m);
+}
+
+glm::dvec2 Wiper::turnedInPlane(const glm::dvec3& d) const {
   return {glm::dot(d, info_.rest_direction), glm::dot(d, side_)};
 }
 
@@ -206,33 +219,24 @@ std::vector<shared::SweptRange> Wiper::ranges(const Sweep& sweep) const {
 
 // No point of the blade goes farther in a sweep than its end's turns allow.
 SweptStrip Wiper::stripOf(const Sweep& sweep) const {
+  constexpr double kRounding_m = 1e-6;  // of places as floats, too
   const double angle = 0.5 * (sweep.before_rad + sweep.now_rad);
-  const double way_m = 0.5 * std::abs(sweep.now_rad - sweep.before_rad) *
-                       (info_.arm_m + std::abs(1.0 + info_.blade_turn) * 0.5 * info_.blade_m);
+  const double half_rad = 0.5 * std::abs(sweep.now_rad - sweep.before_rad),
+               turned_rad = half_rad * std::abs(1.0 + info_.blade_turn);
   return {.middle_m = info_.arm_m * direction(angle),
           .along = direction(bladeDirection_rad(info_, angle)),
           .half_m = 0.5 * info_.blade_m,
-          .near_m = way_m + 2.0 * texel_m_};  // from the texel's middle to anywhere in it
+          .near_m = half_rad * info_.arm_m + turned_rad * 0.5 * info_.blade_m + kRounding_m,
+          .turned_rad = turned_rad};
 }
 
-bool Wiper::mayCross(int texel, const SweptStrip& strip, double radius_m) const {
-  return reaches(strip, glm::dvec2(in_plane_m_[static_cast<size_t>(texel)]), radius_m);
-}
-
-std::vector<bool> Wiper::tilesNear(const SweptStrip& strip, double radius_m) const {
-  std::vector<bool> near;
-  near.reserve(tiles_.size());
-  for (const Circle& tile : tiles_)
-    near.push_back(tile.radius_m >= 0.0 && reaches(strip, tile.middle_m, radius_m + tile.radius_m));
-  return near;
-}
-
-std::optional<double> Wiper::ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const {
-  const Crossings c = crossingsAt(place_m);
-  if (c.count == 0) return std::nullopt;
-  const double nearest = *std::min_element(c.angle_rad, c.angle_rad + c.count, [met_rad](double a, double b) {
-    return std::abs(a - met_rad) < std::abs(b - met_rad);
-  });
+std::optional<double> Wiper::ahead_rad(int texel, const Sweep& sweep, double met_rad) const {
+  const auto i = static_cast<size_t>(texel);
+  const double *first = crossed_rad_.data() + crossed_from_[i],
+               *last = crossed_rad_.data() + crossed_from_[i + 1];
+  if (first == last) return std::nullopt;
+  const double nearest = *std::min_element(
+      first, last, [met_rad](double a, double b) { return std::abs(a - met_rad) < std::abs(b - met_rad); });
   return sweep.now_rad > sweep.before_rad ? nearest - sweep.before_rad : sweep.before_rad - nearest;
 }
 

@@ -3,6 +3,7 @@
 // between both.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -46,6 +47,33 @@ struct SweptStrip {
   glm::dvec2 along{0.0};     // unit
   double half_m = 0.0;
   double near_m = 0.0;
+  double turned_rad = 0.0;  // so much farther for each metre beyond its ends
+  // Whether a blade longer by `beyond_m` at both ends may pass within `off_m` of a place of that plane.
+  bool reaches(const glm::dvec2& place_m, double beyond_m, double off_m) const {
+    const double most_m = near_m + turned_rad * beyond_m + off_m;
+    const glm::dvec2 d = place_m - middle_m;
+    return std::abs(along.x * d.y - along.y * d.x) <= most_m &&
+           std::abs(glm::dot(along, d)) <= half_m + beyond_m + most_m;
+  }
+};
+
+// The glass on a tile of the map as a wiper's plane has it.
+struct TileInPlane {
+  glm::dvec2 low_m{0.0}, high_m{0.0};     // of the tile, grid
+  glm::dvec2 middle_m{0.0};               // of its glass, grid
+  glm::dvec2 place_m{0.0};                // where that is in the plane,
+  glm::dvec2 along_x{0.0}, along_y{0.0};  // and how far a grid metre takes from there
+  double off_m = 0.0;                     // no place of its glass is farther from where these say
+  double radius_m = -1.0;                 // about `place_m`, of all its glass; less than 0: it has none
+
+  // Whether drops of this radius and less may be crossed anywhere on it; one of them at a place.
+  bool isNear(const SweptStrip& strip, double radius_m_of_drops) const {
+    return radius_m >= 0.0 && strip.reaches(place_m, radius_m_of_drops, radius_m);
+  }
+  bool mayCross(const SweptStrip& strip, const glm::dvec2& grid_m, double radius_m_of_drop) const {
+    const glm::dvec2 d = grid_m - middle_m;
+    return strip.reaches(place_m + d.x * along_x + d.y * along_y, radius_m_of_drop, off_m);
+  }
 };
 
 class Wiper {
@@ -65,14 +93,11 @@ class Wiper {
   // What of swept() a sweep crosses: kBladeSegments ranges for first crossings, as many for second ones ...
   std::vector<shared::SweptRange> ranges(const Sweep& sweep) const;
   SweptStrip stripOf(const Sweep& sweep) const;
-  // A place that near to this texel's middle may be crossed: drops elsewhere need no closer look.
-  bool mayCross(int texel, const SweptStrip& strip, double radius_m) const;
-  // By tile of the map: whether that may be so of any texel on it.
-  std::vector<bool> tilesNear(const SweptStrip& strip, double radius_m) const;
+  const std::vector<TileInPlane>& tiles() const { return tiles_; }  // as of the map
 
-  // How far the blade has to turn, from where a sweep begins that meets something at `met_rad`, to this place
-  // beside that; none: it does not come by. Less than 0: it has passed it.
-  std::optional<double> ahead_rad(const glm::dvec3& place_m, const Sweep& sweep, double met_rad) const;
+  // How far the blade has to turn, from where a sweep begins that meets something at `met_rad`, to this
+  // texel's middle beside that; none: it does not come by. Less than 0: it has passed it.
+  std::optional<double> ahead_rad(int texel, const Sweep& sweep, double met_rad) const;
 
   // Texels next to the blade where it turns round at `extreme_rad`, ahead of it in its old direction, for
   // each piece; none: the water leaves the glass.
@@ -89,6 +114,7 @@ class Wiper {
  private:
   void findTiles(const PaneMap& map);
   glm::dvec2 inPlane(const glm::dvec3& vehicle_m) const;
+  glm::dvec2 turnedInPlane(const glm::dvec3& d) const;  // of a vector
   // Angles at which the blade's line, endless, passes a place of its plane.
   std::vector<double> anglesOf(const glm::dvec2& place_m) const;
 
@@ -97,14 +123,12 @@ class Wiper {
   glm::dvec3 side_{0.0};
   double texel_m_;
   std::shared_ptr<const std::vector<shared::SweptTexel>> swept_;
-  std::vector<double> angles_;         // of swept_
-  std::vector<size_t> starts_;         // of each piece's part of swept_, pass by pass; and its end
-  std::vector<glm::vec2> in_plane_m_;  // of texels, from the pivot, for mayCross
-  struct Circle {
-    glm::dvec2 middle_m{0.0};
-    double radius_m = -1.0;  // less than 0: nothing lies in it
-  };
-  std::vector<Circle> tiles_;  // round the texels on each of the map's tiles
+  std::vector<double> angles_;  // of swept_
+  std::vector<size_t> starts_;  // of each piece's part of swept_, pass by pass; and its end
+  // At which angles it crosses a texel's middle, and where a texel's begin.
+  std::vector<double> crossed_rad_;
+  std::vector<uint32_t> crossed_from_;
+  std::vector<TileInPlane> tiles_;
   struct Ends {
     double low_rad = 1e9, high_rad = -1e9;
     int low_texel = -1, high_texel = -1;

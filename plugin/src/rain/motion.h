@@ -108,6 +108,7 @@ class BodyPath {
   static constexpr double kAhead_s = 3.0;    // and looked ahead so far
   static constexpr double kBehind_s = 3.0;   // drops that met the body earlier have reached the ground: 2 s
                                              // from a lorry's roof for the slowest
+  static constexpr uint32_t kMost = 128;     // pieces
 
   void start(double time_s, const Pose& pose);
   // As WindPath::advance; `radius_m`: how far from its origin the body reaches. `jumped`: the body was put
@@ -122,7 +123,7 @@ class BodyPath {
   static void visit(auto& a, auto& path) { a(path.pieces_, path.pose_); }
 
  private:
-  Recent<Piece, 128> pieces_;
+  Recent<Piece, kMost> pieces_;
   Pose pose_;
 };
 

@@ -33,19 +33,25 @@ Span timesInside(std::span<const Plane> planes, const dvec3& p, const dvec3& v, 
   return span;
 }
 
-bool meetsBox(const Box& box, const dvec3& half, const dvec3& p, const dvec3& v, double from, double to) {
+// The same of a box that is `half` larger to all sides.
+Span timesInBox(const Box& box, const dvec3& half, const dvec3& p, const dvec3& v, double from, double to) {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.low[axis] - half[axis] - p[axis], high = box.high[axis] + half[axis] - p[axis];
     if (v[axis] == 0.0) {
-      if (low > 0.0 || high < 0.0) return false;
+      if (low > 0.0 || high < 0.0) return {1.0, 0.0};
       continue;
     }
     const double a = low / v[axis], b = high / v[axis];
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));
-    if (from > to) return false;
+    if (from > to) return {1.0, 0.0};
   }
-  return true;
+  return {from, to};
+}
+
+bool meetsBox(const Box& box, const dvec3& half, const dvec3& p, const dvec3& v, double from, double to) {
+  const Span span = timesInBox(box, half, p, v, from, to);
+  return span.enter <= span.leave;
 }
 
 bool meetsSphere(const dvec3& to_centre, const dvec3& v, double from, double to, double radius) {
@@ -146,7 +152,7 @@ void Shelter::rebuild() {
     }
   }
   met_.reserve(list_.size());
-  met_bodies_.reserve(bodies_.size());
+  meetings_.reserve(bodies_.size() * (ClassPath::kMost + BodyPath::kMost));
   stack_.reserve(nodes_.size() + 1);
   size_t planes = 0;
   for (const auto& volume : list_) planes += volume->shape.planes.size();
@@ -231,26 +237,27 @@ void Shelter::gatherStatic(const dvec3& middle, const dvec3& half, const PathPie
 
 void Shelter::gatherBodies(const dvec3& middle, double radius, const ClassPath& path, double now_s,
                            bool past) {
-  for (const auto& [id, body] : bodies_) {
-    if (!body.known || body.volumes.empty()) continue;
-    bool meets = false;
-    for (uint32_t k = 0; k < (past ? path.count : 1u) && !meets; ++k) {
-      const PathPiece& piece = path.pieces[k];
-      double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
-      const double earliest = now_s + std::max(piece.from_s, -BodyPath::kBehind_s);
-      for (uint32_t age = 0; age < body.path.pieces() && !meets; ++age) {
-        const BodyPath::Piece& motion = body.path.piece(age);
-        if (until <= earliest) break;
-        const double from = std::max(earliest, motion.from_s), to = until;
-        until = std::min(until, motion.from_s);
-        if (from >= to) continue;
-        const dvec3 v = piece.velocity_mps - motion.pose.velocity_mps;
-        const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from - motion.from_s);
-        const dvec3 here = middle + piece.from_m + piece.velocity_mps * (from - now_s - piece.from_s);
-        meets = meetsSphere(there - here, v, 0.0, to - from, body.radius_m + radius);
-      }
+  for (uint32_t k = 0; k < (past ? path.count : 1u); ++k) {
+    for (const auto& [id, body] : bodies_) {
+      if (body.known && !body.volumes.empty()) gatherBody(body, middle, radius, path.pieces[k], k, now_s);
     }
-    if (meets) met_bodies_.push_back(&body);
+  }
+}
+
+void Shelter::gatherBody(const Body& body, const dvec3& middle, double radius, const PathPiece& piece,
+                         uint32_t number, double now_s) {
+  double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
+  const double earliest = now_s + std::max(piece.from_s, -BodyPath::kBehind_s);
+  for (uint32_t age = 0; age < body.path.pieces() && until > earliest; ++age) {
+    const BodyPath::Piece& motion = body.path.piece(age);
+    const double from = std::max(earliest, motion.from_s), to = until;
+    until = std::min(until, motion.from_s);
+    if (from >= to) continue;
+    const dvec3 v = piece.velocity_mps - motion.pose.velocity_mps;
+    const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from - motion.from_s);
+    const dvec3 here = middle + piece.from_m + piece.velocity_mps * (from - now_s - piece.from_s);
+    if (meetsSphere(there - here, v, 0.0, to - from, body.radius_m + radius))
+      meetings_.push_back({&body, &motion, number, from, to, glm::conjugate(motion.pose.orientation) * v});
   }
 }
 
@@ -290,7 +297,7 @@ void Shelter::prepareGates(const dvec3& velocity) {
 bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath& path, double now_s,
                          bool past) {
   met_.clear();
-  met_bodies_.clear();
+  meetings_.clear();
   if (list_.empty()) return false;
   low_pieces_ = nodes_.empty() ? 0 : past ? lowPieces(middle, half, path) : 1;
   if (low_pieces_ > 1 && path.straight) {
@@ -300,29 +307,39 @@ bool Shelter::lookAround(const dvec3& middle, const dvec3& half, const ClassPath
     for (uint32_t k = 0; k < low_pieces_; ++k) gatherStatic(middle, half, path.pieces[k]);
   }
   gatherBodies(middle, glm::length(half), path, now_s, past);
-  return !met_.empty() || !met_bodies_.empty();
+  return !met_.empty() || !meetings_.empty();
 }
 
-// The first time of [from_s, to_s] at which a drop, at `from_m` then, is inside the body as it moves in one
-// piece of its path; kNever_s when it is not.
-double Shelter::entryDuring(const Body& body, const BodyPath::Piece& motion, const dvec3& from_m,
-                            const dvec3& velocity, double from_s, double to_s) {
-  const dvec3 there = motion.pose.position_m + motion.pose.velocity_mps * (from_s - motion.from_s);
-  const dvec3 past = velocity - motion.pose.velocity_mps;
-  const Span near = timesInSphere(there - from_m, past, to_s - from_s, body.radius_m);
+// The first time of a meeting at which a drop, at `from_m` when it begins, is inside the body; kNever_s when
+// it is not.
+double Shelter::entryDuring(const Meeting& meeting, const dvec3& from_m, const dvec3& velocity) {
+  const Body& body = *meeting.body;
+  const Pose& pose = meeting.motion->pose;
+  const double since_s = meeting.from_s - meeting.motion->from_s;
+  const dvec3 to_centre = pose.position_m + pose.velocity_mps * since_s - from_m,
+              past = velocity - pose.velocity_mps;
+  const Span near = timesInSphere(to_centre, past, meeting.to_s - meeting.from_s, body.radius_m);
   if (near.enter > near.leave) return kNever_s;
+  // Past a body that does not turn the way is straight; what it does turn moves no place of it farther than
+  // this. Most of those that come near a car pass it by.
+  const double turn = glm::length(pose.angular_velocity_radps),
+               turned_m = turn * (since_s + near.leave) * body.radius_m;
+  const Span close =
+      timesInBox(body.box, 2.0 * kRounding_m + turned_m, glm::conjugate(pose.orientation) * -to_centre,
+                 meeting.past_mps, near.enter, near.leave);
+  if (close.enter > close.leave) return kNever_s;
   const auto inBody = [&](double t) {
-    return intoBody(movedOn(motion.pose, t - motion.from_s), from_m + velocity * (t - from_s));
+    return intoBody(movedOn(pose, t - meeting.motion->from_s), from_m + velocity * (t - meeting.from_s));
   };
-  const double turn = glm::length(motion.pose.angular_velocity_radps), end = from_s + near.leave;
-  const double step = std::max(chord_s(turn, glm::length(past), body.radius_m), kLeastChord_s);
-  double begin = from_s + near.enter;
+  const double end = meeting.from_s + near.leave,
+               step = std::max(chord_s(turn, glm::length(past), body.radius_m), kLeastChord_s);
+  double begin = meeting.from_s + near.enter;
+  while (begin + step < meeting.from_s + close.enter) begin += step;
   dvec3 a = inBody(begin);
-  while (begin < end) {
+  while (begin < end && begin <= meeting.from_s + close.leave) {
     const double next = std::min(begin + step, end);
     const dvec3 b = inBody(next), v = (b - a) / (next - begin);
     double first = kNever_s;
-    // Most of those that come near a car pass it by.
     const bool meets = meetsBox(body.box, kRounding_m, a, v, 0.0, next - begin);
     for (const uint32_t i : meets ? std::span<const uint32_t>(body.volumes) : std::span<const uint32_t>()) {
       ++tests_;
@@ -336,25 +353,22 @@ double Shelter::entryDuring(const Body& body, const BodyPath::Piece& motion, con
   return kNever_s;
 }
 
-// The first time within the piece at which the drop is inside the body, relative to now; kNever_s when it is
-// not.
-double Shelter::entryOfBody(const Body& body, const dvec3& place, const PathPiece& piece, double now_s) {
+// The first time at which the drop is inside the body that a run of meetings is with, all in one piece of the
+// path, relative to now; kNever_s when it is not. Goes on to the next run.
+double Shelter::entryOfBody(Meetings& at, const dvec3& place, const ClassPath& path, double now_s) {
   double first = kNever_s;
-  double until = now_s + std::min(piece.to_s, BodyPath::kAhead_s);
-  const double earliest = now_s + std::max(piece.from_s, -BodyPath::kBehind_s);
-  for (uint32_t age = 0; age < body.path.pieces(); ++age) {
-    const BodyPath::Piece& motion = body.path.piece(age);
-    if (until <= earliest) break;
-    const double from = std::max(earliest, motion.from_s), to = until;
-    until = std::min(until, motion.from_s);
-    if (from >= to) continue;
-    const dvec3 from_m = place + piece.from_m + piece.velocity_mps * (from - now_s - piece.from_s);
-    first = std::min(first, entryDuring(body, motion, from_m, piece.velocity_mps, from, to) - now_s);
+  const Meeting begin = *at;
+  const PathPiece& piece = path.pieces[begin.piece];
+  for (; at != meetings_.end() && at->body == begin.body && at->piece == begin.piece; ++at) {
+    const dvec3 from_m = place + piece.from_m + piece.velocity_mps * (at->from_s - now_s - piece.from_s);
+    first = std::min(first, entryDuring(*at, from_m, piece.velocity_mps) - now_s);
   }
   return first;
 }
 
 bool Shelter::cameThrough(const dvec3& place, const ClassPath& path, double now_s) {
+  Meetings at = meetings_.begin();
+  while (at != meetings_.end() && at->piece == 0) ++at;
   for (uint32_t k = 1; k < path.count; ++k) {
     const PathPiece& piece = path.pieces[k];
     const dvec3 from = place + piece.from_m - piece.velocity_mps * piece.from_s;
@@ -365,8 +379,8 @@ bool Shelter::cameThrough(const dvec3& place, const ClassPath& path, double now_
           timesInside(list_[i]->shape.planes, from, piece.velocity_mps, piece.from_s, piece.to_s);
       if (span.enter <= span.leave) return true;
     }
-    for (const Body* body : met_bodies_) {
-      if (entryOfBody(*body, place, piece, now_s) < kNever_s) return true;
+    while (at != meetings_.end() && at->piece == k) {
+      if (entryOfBody(at, place, path, now_s) < kNever_s) return true;
     }
   }
   return false;
@@ -374,7 +388,7 @@ bool Shelter::cameThrough(const dvec3& place, const ClassPath& path, double now_
 
 // On a straight path a drop is inside a volume once at most: before now, or to come.
 Passage Shelter::passage(const dvec3& place, const ClassPath& path, double now_s) {
-  if (!path.straight || !met_bodies_.empty() || low_pieces_ <= 1)
+  if (!path.straight || !meetings_.empty() || low_pieces_ <= 1)
     return {cameThrough(place, path, now_s), willEnter(place, path, now_s)};
   const PathPiece whole = wholeOf(path);
   Passage passage;
@@ -404,7 +418,8 @@ double Shelter::willEnter(const dvec3& place, const ClassPath& path, double now_
     const Span span = timesInside(list_[i]->shape.planes, place, piece.velocity_mps, 0.0, piece.to_s);
     if (span.enter <= span.leave) first = std::min(first, span.enter);
   }
-  for (const Body* body : met_bodies_) first = std::min(first, entryOfBody(*body, place, piece, now_s));
+  for (Meetings at = meetings_.begin(); at != meetings_.end() && at->piece == 0;)
+    first = std::min(first, entryOfBody(at, place, path, now_s));
   return first;
 }
 
@@ -458,42 +473,6 @@ bool Shelter::surfaceAt(const dvec3& place, double ago_s, double within, Surface
     for (const uint32_t i : body.volumes) consider(list_[i]->shape, pose);
   }
   return found;
-}
-
-void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearVolume>& out) const {
-  const auto closeTo = [&](auto&& gap) {
-    return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; });
-  };
-  const auto boxCloseTo = [&](const Box& box) {
-    return closeTo([&](const dvec3& eye) {
-      return glm::length(glm::max(glm::max(box.low - eye, eye - box.high), dvec3(0.0)));
-    });
-  };
-  nearStatic(0, boxCloseTo, out);
-  for (const auto& [id, body] : bodies_) {
-    if (!body.known) continue;
-    for (const uint32_t i : body.volumes) {
-      const Convex& shape = list_[i]->shape;
-      const dvec3 centre = outOfBody(body.path.pose(), shape.centre);
-      if (!closeTo([&](const dvec3& eye) { return glm::distance(centre, eye) - shape.radius_m; })) continue;
-      out.push_back({id, body.path.pose(), shape.planes, shape.centre, shape.radius_m});
-    }
-  }
-}
-
-template <class F>
-void Shelter::nearStatic(uint32_t node, const F& closeTo, std::vector<NearVolume>& out) const {
-  if (nodes_.empty() || !closeTo(nodes_[node].box)) return;
-  const auto [box, first, count] = nodes_[node];
-  if (count == 0) {
-    nearStatic(first, closeTo, out);
-    nearStatic(first + 1, closeTo, out);
-    return;
-  }
-  for (uint32_t i = first; i < first + count; ++i) {
-    const Convex& shape = list_[i]->shape;
-    if (closeTo(shape.box)) out.push_back({0, Pose{}, shape.planes, shape.centre, shape.radius_m});
-  }
 }
 
 }  // namespace rg::rain

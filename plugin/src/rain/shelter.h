@@ -131,9 +131,19 @@ class Shelter {
   void prepareGates(const glm::dvec3& velocity_mps);
   void gatherBodies(const glm::dvec3& middle_m, double radius_m, const ClassPath& path, double now_s,
                     bool past);
-  double entryDuring(const Body& body, const BodyPath::Piece& motion, const glm::dvec3& from_m,
-                     const glm::dvec3& velocity_mps, double from_s, double to_s);
-  double entryOfBody(const Body& body, const glm::dvec3& place_m, const PathPiece& piece, double now_s);
+  void gatherBody(const Body& body, const glm::dvec3& middle_m, double radius_m, const PathPiece& piece,
+                  uint32_t number, double now_s);
+  // A piece of a body's path during which it comes near a cell's drops, as they are in a piece of theirs.
+  struct Meeting {
+    const Body* body;
+    const BodyPath::Piece* motion;
+    uint32_t piece;
+    double from_s, to_s;
+    glm::dvec3 past_mps;  // how they pass it, its axes when its piece began
+  };
+  using Meetings = std::vector<Meeting>::const_iterator;
+  double entryDuring(const Meeting& meeting, const glm::dvec3& from_m, const glm::dvec3& velocity_mps);
+  double entryOfBody(Meetings& at, const glm::dvec3& place_m, const ClassPath& path, double now_s);
 
   template <class F>
   void nearStatic(uint32_t node, const F& closeTo, std::vector<NearVolume>& out) const;
@@ -145,8 +155,8 @@ class Shelter {
   uint32_t statics_ = 0;
   std::vector<Node> nodes_;
   std::map<uint32_t, Body> bodies_;
-  std::vector<uint32_t> met_;            // found by lookAround: static volumes
-  std::vector<const Body*> met_bodies_;  // and bodies
+  std::vector<uint32_t> met_;      // found by lookAround: static volumes
+  std::vector<Meeting> meetings_;  // and bodies: piece by piece of the path, body by body, newest first
   // A static volume for drops of one velocity: its planes by how these pass them, and where each sort ends.
   struct GatePlane {
     glm::dvec3 normal{0.0};

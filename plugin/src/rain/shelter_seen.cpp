@@ -1,4 +1,5 @@
-// Which volumes a view looks into: those that may keep rain out of its rays, however far off.
+// Which volumes a view looks into, as they may keep rain out of its rays, however far off; and which are near
+// an eye.
 #include <algorithm>
 
 #include "rain/shelter.h"
@@ -53,6 +54,42 @@ void Shelter::seen(std::span<const Cone> views, double range_m, std::vector<Near
       if (isSeen(outOfBody(body.path.pose(), shape.centre), shape.radius_m))
         out.push_back({id, body.path.pose(), shape.planes, shape.centre, shape.radius_m});
     }
+  }
+}
+
+void Shelter::near(std::span<const dvec3> eyes, double radius, std::vector<NearVolume>& out) const {
+  const auto closeTo = [&](auto&& gap) {
+    return std::any_of(eyes.begin(), eyes.end(), [&](const dvec3& eye) { return gap(eye) <= radius; });
+  };
+  const auto boxCloseTo = [&](const Box& box) {
+    return closeTo([&](const dvec3& eye) {
+      return glm::length(glm::max(glm::max(box.low - eye, eye - box.high), dvec3(0.0)));
+    });
+  };
+  nearStatic(0, boxCloseTo, out);
+  for (const auto& [id, body] : bodies_) {
+    if (!body.known) continue;
+    for (const uint32_t i : body.volumes) {
+      const Convex& shape = list_[i]->shape;
+      const dvec3 centre = outOfBody(body.path.pose(), shape.centre);
+      if (!closeTo([&](const dvec3& eye) { return glm::distance(centre, eye) - shape.radius_m; })) continue;
+      out.push_back({id, body.path.pose(), shape.planes, shape.centre, shape.radius_m});
+    }
+  }
+}
+
+template <class F>
+void Shelter::nearStatic(uint32_t node, const F& closeTo, std::vector<NearVolume>& out) const {
+  if (nodes_.empty() || !closeTo(nodes_[node].box)) return;
+  const auto [box, first, count] = nodes_[node];
+  if (count == 0) {
+    nearStatic(first, closeTo, out);
+    nearStatic(first + 1, closeTo, out);
+    return;
+  }
+  for (uint32_t i = first; i < first + count; ++i) {
+    const Convex& shape = list_[i]->shape;
+    if (closeTo(shape.box)) out.push_back({0, Pose{}, shape.planes, shape.centre, shape.radius_m});
   }
 }
 
