@@ -113,11 +113,11 @@ struct GlassLook::Parts {
         no_environment(gl, GL_RGBA16F, 1),
         no_film(gl, GL_RGBA16F, 1, 1),
         water(gl, programs),
-        picture(gl),
+        picture(gl, programs),
         layers(gl, true),
         layer(gl),
         capture(gl),
-        lamps(gl),
+        lamps(gl, programs),
         fog(gl) {
     no_film.zero();
     mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
@@ -219,9 +219,6 @@ void GlassLook::Parts::bindLook(const LookLight& light, const LookTarget& target
   const uint32_t environment = environmentOf(light);
   choose(kEnvironment, environment != 0);
   choose(kEncoded, target.srgb);
-  // Made with the first pane that is drawn in such a light, not with the first drop that falls.
-  for (const LookStage stage : {LookStage::place, LookStage::drops, LookStage::small_drops})
-    programs.use(stage, variant);
   gl.BindTextureUnit(kSurroundings, environment != 0 ? environment : no_environment.name());
   gl.BindSampler(kSurroundings, mipped.name());
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
