@@ -2,14 +2,15 @@
 find_program(RG_GLAD glad REQUIRED)
 function(rg_add_glad target)
   set(dir ${CMAKE_BINARY_DIR}/glad/${target})
-  if(NOT EXISTS ${dir}/src/gl.c)
+  set(extensions GL_KHR_debug,GL_EXT_texture_filter_anisotropic,GL_KHR_parallel_shader_compile)
+  if(NOT EXISTS ${dir}/src/gl.c OR NOT "${${target}_EXTENSIONS}" STREQUAL extensions)
     execute_process(
-      COMMAND ${RG_GLAD} --reproducible --quiet --api gl:compatibility=4.5 --extensions GL_KHR_debug,GL_EXT_texture_filter_anisotropic
-              --out-path ${dir} c --mx
+      COMMAND ${RG_GLAD} --reproducible --quiet --api gl:compatibility=4.5 --extensions ${extensions} --out-path ${dir} c --mx
       RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE message)
     if(failed)
       message(FATAL_ERROR "glad could not generate the GL loader: ${message}")
     endif()
+    set(${target}_EXTENSIONS ${extensions} CACHE INTERNAL "that ${target} was generated with")
   endif()
   add_library(${target} STATIC ${dir}/src/gl.c)
   target_include_directories(${target} SYSTEM PUBLIC ${dir}/include)

@@ -156,7 +156,6 @@ class Frame {
   void removeWipersOf(uint32_t pane);
   Gl& attached();
   void syncPanes(Gl& gl);
-  void openPanes(Gl& gl, int64_t time_ns);
   void leaveGl();
   void finishGlass();  // runs what waits for the film, and waits for it; GL thread, locked
   void publish();

@@ -271,21 +271,6 @@ uint32_t Frame::drawWorld(const DrawRequest& request) {
   return guarded.touched();
 }
 
-// Cuts the meshes of windows at where their sills are now: without the simulation's lock, as that takes its
-// time.
-void Frame::openPanes(Gl& gl, int64_t time_ns) {
-  std::vector<std::pair<glass::PaneGl*, double>> openings_m;
-  {
-    const std::lock_guard lock(sim_);
-    for (auto& [id, half] : gl.panes) {
-      const auto object = panes_.find(id);
-      if (object != panes_.end())
-        openings_m.emplace_back(half.gl.get(), openingOf_m(id, object->second, time_ns));
-    }
-  }
-  for (const auto& [pane, opening_m] : openings_m) pane->open(opening_m);
-}
-
 uint32_t Frame::drawGlass(const DrawRequest& request) {
   Gl& gl = attached();
   requireMoment(request.time_ns);
@@ -294,7 +279,6 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
   guarded.drawInto(request.target.framebuffer);
   if (request.target.color_texture == 0) guarded.readFrom(request.target.framebuffer);
   const gl::ScopedStage timed(timers_, stage_.glass_draw);
-  openPanes(gl, request.time_ns);
   std::vector<glass::LookPane> seen;
   {
     const std::lock_guard lock(sim_);
@@ -304,7 +288,7 @@ uint32_t Frame::drawGlass(const DrawRequest& request) {
       if (object == panes_.end() || object->second.sim != half.sim || !object->second.active) continue;
       const auto vehicle = timeline_.vehicleAt(object->second.vehicle, request.time_ns);
       if (!vehicle) continue;
-      const glass::PaneDrawn drawn = half.gl->drawn();
+      const glass::PaneDrawn drawn = half.gl->drawn(openingOf_m(id, object->second, request.time_ns));
       if (drawn.index_count == 0) continue;
       // The pane's own count of ticks has no gaps; the world's tick it stands for is so far behind the
       // newest. After reset() the records are of a count that is no more.

@@ -14,5 +14,6 @@ void main() {
   o.from_eye = position - frame.eye_in_vehicle.xyz;
   o.normal = normal;
   o.uv = uv;
+  gl_ClipDistance[0] = dot(frame.sill, vec4(position, 1.0));  // of a window that slides behind its sill
   gl_Position = frame.clip_from_eye * (frame.eye_from_vehicle * vec4(position, 1.0));
 }

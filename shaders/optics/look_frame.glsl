@@ -38,6 +38,7 @@ layout(std140, binding = 0) uniform Frame {
   float bead_mm3_per_unit;  // the cube of a bead's base radius, for a unit of the film's volume
   float bead_sine;          // of the angle in which its cap meets the glass
   float pupil_m;            // how wide the circle is on the glass that a sharp point far away is seen through
+  vec4 sill;                // n, d: the pane is seen where n . p + d >= 0, vehicle frame
   LookBlade blades[8];      // kMaxGlassWipers
 } frame;
 #endif

@@ -80,7 +80,7 @@ class SmallScene {
 
   // From y to y, from 1 m up to `top_m`, 1 m ahead.
   rg_result setUprightPane(uint32_t id, const char* name, std::array<float, 2> y_m, float top_m,
-                           uint32_t max_drops = 20000) const {
+                           uint32_t max_drops = 20000, double mirror = 0.0) const {
     const auto [right, left] = y_m;
     const std::array<float, 12> positions{1, left, 1, 1, right, 1, 1, right, top_m, 1, left, top_m};
     const std::array<float, 8> uvs{0, 0, 1, 0, 1, 1, 0, 1};
@@ -96,6 +96,7 @@ class SmallScene {
     pane.index_count = 6;
     pane.texel_m = 10e-3;
     pane.max_drops = max_drops;
+    pane.mirror = mirror;
     return api.set_pane(instance, id, &pane);
   }
 
@@ -115,17 +116,17 @@ class SmallScene {
     return info;
   }
 
-  rg_result setWiper() const {
+  rg_result setWiper(uint32_t id = kWiper, uint32_t on = kPane, double pivot_y_m = 0.2) const {
     rg_wiper_info wiper;
     api.default_wiper_info(&wiper);
-    wiper.pane = kPane;
-    const std::array<double, 3> pivot{1.0, 0.2, 1.0}, axis{1, 0, 0}, rest{0, -1, 0};
+    wiper.pane = on;
+    const std::array<double, 3> pivot{1.0, pivot_y_m, 1.0}, axis{1, 0, 0}, rest{0, -1, 0};
     std::memcpy(wiper.pivot_m, pivot.data(), sizeof wiper.pivot_m);
     std::memcpy(wiper.axis, axis.data(), sizeof wiper.axis);
     std::memcpy(wiper.rest_direction, rest.data(), sizeof wiper.rest_direction);
     wiper.arm_m = 0.2;
     wiper.blade_m = 0.2;
-    return api.set_wiper(instance, kWiper, &wiper);
+    return api.set_wiper(instance, id, &wiper);
   }
 
   // One sixtieth of a second.

@@ -80,26 +80,90 @@ TEST(Logs, nameFilesInTheFormsDriversUse) {
 
 class ProgramTest : public test::GlTest {};
 
+const std::vector<std::string> kScaled{"SCALE 0.25"};
+
 TEST_F(ProgramTest, buildsFromIncludesAndDefines) {
-  const std::vector<std::string> defines{"SCALE 0.25"};
-  const Program program(gl, {"good.vert", "good.frag"}, defines, fakeFiles);
-  EXPECT_TRUE(gl.IsProgram(program.name()));
+  const Program program(gl, {"good.vert", "good.frag"}, kScaled, fakeFiles);
+  GLint linked = 0;
+  gl.GetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+  EXPECT_TRUE(linked);
 }
 
 TEST_F(ProgramTest, tellsCompileErrorsByOurFileAndLine) {
-  const std::vector<std::string> defines{"SCALE 0.25"};
-  const std::string text = failure([&] { Program(gl, {"good.vert", "bad.frag"}, defines, fakeFiles); });
+  const std::string text = failure([&] { Program(gl, {"good.vert", "bad.frag"}, kScaled, fakeFiles).use(); });
   EXPECT_NE(text.find("bad.frag does not compile"), std::string::npos) << text;
   EXPECT_NE(text.find("typo.glsl:2"), std::string::npos) << text;
   context.takeMessages();  // Mesa's debug output tells of compile errors too
 }
 
 TEST_F(ProgramTest, tellsLinkErrorsAndFreesWhatItMade) {
-  const std::string text = failure([&] { Program(gl, {"unlinked.vert"}, {}, fakeFiles); });
+  const std::string text = failure([&] { Program(gl, {"unlinked.vert"}, {}, fakeFiles).use(); });
   EXPECT_NE(text.find("unlinked.vert do not link"), std::string::npos) << text;
   context.takeMessages();
-  EXPECT_NE(failure([&] { Program(gl, {"odd.txt"}, {}, fakeFiles); }).find("odd.txt: a shader file ends in"),
-            std::string::npos);
+  EXPECT_NE(
+      failure([&] { Program(gl, {"odd.txt"}, {}, fakeFiles).use(); }).find("odd.txt: a shader file ends in"),
+      std::string::npos);
+}
+
+// The context as another driver's, which counts.
+struct Driver {
+  Driver(const GladGLContext& real, const char* renderer, bool side_by_side) : gl(real) {
+    name = renderer;
+    below = &real;
+    linked = asked = 0;
+    gl.KHR_parallel_shader_compile = side_by_side ? 1 : 0;
+    gl.GetString = [](GLenum what) -> const GLubyte* {
+      return what == GL_RENDERER ? reinterpret_cast<const GLubyte*>(name) : below->GetString(what);
+    };
+    gl.LinkProgram = [](GLuint program) {
+      ++linked;
+      below->LinkProgram(program);
+    };
+    gl.GetProgramiv = [](GLuint program, GLenum what, GLint* out) {
+      ++asked;
+      below->GetProgramiv(program, what, out);
+    };
+  }
+  GladGLContext gl;
+  static inline const char* name;
+  static inline const GladGLContext* below;
+  static inline int linked, asked;
+};
+
+TEST_F(ProgramTest, isBegunAsItIsMadeAndWaitedForOnceNeededWhereTheDriverHasThreads) {
+  const Driver driver(gl, "Some GPU", true);
+  const Program program(driver.gl, {"good.vert", "good.frag"}, kScaled, fakeFiles);
+  EXPECT_EQ(Driver::linked, 1);
+  EXPECT_EQ(Driver::asked, 0) << "asking waits";
+  for (int i = 0; i < 3; ++i) program.use();
+  EXPECT_EQ(Driver::linked, 1);
+  EXPECT_EQ(Driver::asked, 1);
+  gl.UseProgram(0);
+}
+
+TEST_F(ProgramTest, isFinishedAsItIsMadeWhereTheDriverHasNoThreads) {
+  const Driver driver(gl, "Some GPU", false);
+  const Program program(driver.gl, {"good.vert", "good.frag"}, kScaled, fakeFiles);
+  EXPECT_EQ(Driver::linked, 1);
+  EXPECT_EQ(Driver::asked, 1);
+}
+
+TEST_F(ProgramTest, isNotBegunBeforeItIsNeededOnSoftwareGl) {
+  const Driver driver(gl, "llvmpipe (LLVM 15)", true);
+  const Program program(driver.gl, {"good.vert", "good.frag"}, kScaled, fakeFiles);
+  EXPECT_EQ(Driver::linked, 0);
+  program.set(0, 1.0f);
+  EXPECT_EQ(Driver::linked, 1);
+  gl.GetError();  // there is no such uniform
+  context.takeMessages();
+}
+
+TEST_F(ProgramTest, thatFailsOnTheDriversThreadsSaysSoEachTimeItIsNeeded) {
+  const Driver driver(gl, "Some GPU", true);
+  const Program program(driver.gl, {"good.vert", "bad.frag"}, kScaled, fakeFiles);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_NE(failure([&] { program.use(); }).find("typo.glsl:2"), std::string::npos);
+  context.takeMessages();
 }
 
 // A compute shader that answers with what the shared file gives on the GPU.

@@ -555,7 +555,14 @@ typedef struct rg_api {
 
   /* GL. [thread: GL, context current] attach_gl makes all GL objects; attach again after detach_gl or
    * context_lost. With host_resets_state 0 every GL call after it leaves the context's state as found, a
-   * pending GL error included. */
+   * pending GL error included.
+   *
+   * It is also where the driver compiles, some 80 programs: attach while you load. Where the driver does that
+   * on threads of its own (GL_KHR_parallel_shader_compile, as many as you left it) attach_gl does not wait
+   * for them; who needs a program first does, so draw a picture behind your loading screen if nothing else
+   * takes a second or two. Later no call compiles, whatever comes into view, but for the first draw_glass
+   * into a target of RG_SRGB: it begins some 40 more. On software GL programs are compiled as they are first
+   * drawn with. */
   rg_result (*attach_gl)(rg_instance* instance, const rg_gl_info* info);
   rg_result (*detach_gl)(rg_instance* instance);
   /* The context is gone with all that was in it: forget GL names without freeing them. The water on the

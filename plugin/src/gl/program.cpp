@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "gl/error.h"
+#include "gl/loader.h"
 
 namespace rg::gl {
 namespace {
@@ -104,44 +105,21 @@ std::string readLog(GLint length, GetLog getLog) {
   return log;
 }
 
-// A shader for the time of linking.
-struct Shader {
-  const GladGLContext& gl;
-  GLuint name;
-  Shader(const GladGLContext& context, GLenum kind) : gl(context), name(context.CreateShader(kind)) {}
-  Shader(const Shader&) = delete;
-  Shader& operator=(const Shader&) = delete;
-  ~Shader() { gl.DeleteShader(name); }
-};
-
-void compile(const Shader& shader, std::string_view path, std::span<const std::string> defines,
-             SourceFn source) {
-  const GladGLContext& gl = shader.gl;
-  const ShaderText resolved = resolveIncludes(path, defines, source);
-  const char* text = resolved.text.c_str();
-  gl.ShaderSource(shader.name, 1, &text, nullptr);
-  gl.CompileShader(shader.name);
-  GLint ok = 0, length = 0;
-  gl.GetShaderiv(shader.name, GL_COMPILE_STATUS, &ok);
-  if (ok) return;
-  gl.GetShaderiv(shader.name, GL_INFO_LOG_LENGTH, &length);
-  const std::string log = readLog(length, [&](GLsizei size, GLsizei* written, char* to) {
-    gl.GetShaderInfoLog(shader.name, size, written, to);
-  });
-  throw Error(Error::Kind::kDriver,
-              std::string(path) + " does not compile:\n" + nameFilesInLog(log, resolved.files));
+// Lives as long as the program has it.
+GLuint attachShader(const GladGLContext& gl, GLuint program, GLenum kind, const std::string& text) {
+  const GLuint shader = gl.CreateShader(kind);
+  const char* start = text.c_str();
+  gl.ShaderSource(shader, 1, &start, nullptr);
+  gl.CompileShader(shader);
+  gl.AttachShader(program, shader);
+  gl.DeleteShader(shader);
+  return shader;
 }
 
-void link(const GladGLContext& gl, GLuint program, const std::string& paths) {
-  gl.LinkProgram(program);
-  GLint ok = 0, length = 0;
-  gl.GetProgramiv(program, GL_LINK_STATUS, &ok);
-  if (ok) return;
-  gl.GetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  const std::string log = readLog(length, [&](GLsizei size, GLsizei* written, char* to) {
-    gl.GetProgramInfoLog(program, size, written, to);
-  });
-  throw Error(Error::Kind::kDriver, paths + " do not link:\n" + log);
+std::string joined(std::span<const std::string_view> paths) {
+  std::string all;
+  for (const std::string_view path : paths) all.append(all.empty() ? "" : ", ").append(path);
+  return all;
 }
 
 }  // namespace
@@ -171,18 +149,59 @@ std::string nameFilesInLog(std::string_view log, std::span<const std::string> fi
   return named;
 }
 
+Building buildingOf(const GladGLContext& gl) {
+  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+  if (renderer != nullptr && isSoftwareRenderer(renderer)) return Building::when_used;
+  return gl.KHR_parallel_shader_compile != 0 ? Building::side_by_side : Building::at_once;
+}
+
 Program::Program(const GladGLContext& gl, std::initializer_list<std::string_view> paths,
                  std::span<const std::string> defines, SourceFn source)
-    : Object(gl, gl.CreateProgram()) {
-  std::string all;
-  for (const std::string_view path : paths) {
-    const Shader shader(gl, shaderKind(path));
-    compile(shader, path, defines, source);
-    gl.AttachShader(name(), shader.name);  // the program keeps it alive until it is detached or deleted
-    all.append(all.empty() ? "" : ", ").append(path);
+    : Object(gl, gl.CreateProgram()),
+      paths_(paths),
+      defines_(defines.begin(), defines.end()),
+      source_(source) {
+  const Building when = buildingOf(gl);
+  if (when != Building::when_used) begin();
+  if (when == Building::at_once) build();
+}
+
+// Asks for no result: that would wait for it.
+void Program::begin() const {
+  for (const std::string_view path : paths_)
+    shaders_.push_back(
+        attachShader(gl(), Object::name(), shaderKind(path), resolveIncludes(path, defines_, source_).text));
+  gl().LinkProgram(Object::name());
+}
+
+void Program::build() const {
+  if (shaders_.empty()) begin();
+  GLint ok = 0;
+  gl().GetProgramiv(Object::name(), GL_LINK_STATUS, &ok);
+  if (!ok) refuse();
+  const std::string label = joined(paths_);
+  gl().ObjectLabel(GL_PROGRAM, Object::name(), static_cast<GLsizei>(label.size()), label.c_str());
+  built_ = true;
+}
+
+void Program::refuse() const {
+  GLint ok = 0, length = 0;
+  for (size_t k = 0; k < shaders_.size(); ++k) {
+    gl().GetShaderiv(shaders_[k], GL_COMPILE_STATUS, &ok);
+    if (ok) continue;
+    gl().GetShaderiv(shaders_[k], GL_INFO_LOG_LENGTH, &length);
+    const std::string log = readLog(length, [&](GLsizei size, GLsizei* written, char* to) {
+      gl().GetShaderInfoLog(shaders_[k], size, written, to);
+    });
+    throw Error(Error::Kind::kDriver,
+                std::string(paths_[k]) + " does not compile:\n" +
+                    nameFilesInLog(log, resolveIncludes(paths_[k], defines_, source_).files));
   }
-  link(gl, name(), all);
-  gl.ObjectLabel(GL_PROGRAM, name(), static_cast<GLsizei>(all.size()), all.c_str());
+  gl().GetProgramiv(Object::name(), GL_INFO_LOG_LENGTH, &length);
+  const std::string log = readLog(length, [&](GLsizei size, GLsizei* written, char* to) {
+    gl().GetProgramInfoLog(Object::name(), size, written, to);
+  });
+  throw Error(Error::Kind::kDriver, joined(paths_) + " do not link:\n" + log);
 }
 
 }  // namespace rg::gl

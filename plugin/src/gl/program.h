@@ -32,14 +32,29 @@ ShaderText resolveIncludes(std::string_view path, std::span<const std::string> d
 // A driver's log with "2:17" or "2(17)" at the start of a line told as "rain/streak.vert:17".
 std::string nameFilesInLog(std::string_view log, std::span<const std::string> files);
 
+// When the driver compiles a program.
+enum class Building : uint8_t {
+  at_once,       // as it is made
+  side_by_side,  // begun as it is made, on threads of the driver's own; who needs it first waits for it
+  when_used      // as it is first needed
+};
+// On software GL, whose programs are ready to run only when drawn with anyway, most are never needed; on
+// others none is to be compiled in the middle of a drive.
+Building buildingOf(const GladGLContext& gl);
+
 class Program : public Object<detail::deleteProgram> {
  public:
   Program() = default;
-  // Compiles and links files below shaders/; their kind is their extension (.vert, .frag, .comp, .geom).
-  // Throws Error::kDriver with the driver's log, which names our files.
+  // Compiled and linked of files below shaders/, at a time that buildingOf() says; their kind is their
+  // extension (.vert, .frag, .comp, .geom). `paths` must outlive it. What then first waits for it throws
+  // Error::kDriver with the driver's log, which names our files.
   Program(const GladGLContext& gl, std::initializer_list<std::string_view> paths,
           std::span<const std::string> defines = {}, SourceFn source = shaderSource);
 
+  GLuint name() const {
+    if (*this && !built_) build();
+    return Object::name();
+  }
   void use() const { gl().UseProgram(name()); }
   // Uniforms by their layout(location = n). Nothing needs to be bound.
   void set(GLint location, float value) const { gl().ProgramUniform1f(name(), location, value); }
@@ -70,6 +85,17 @@ class Program : public Object<detail::deleteProgram> {
   void set(GLint location, std::span<const glm::vec4> values) const {
     gl().ProgramUniform4fv(name(), location, static_cast<GLsizei>(values.size()), &values.data()->x);
   }
+
+ private:
+  void begin() const;
+  void build() const;
+  [[noreturn]] void refuse() const;
+
+  std::vector<std::string_view> paths_;
+  std::vector<std::string> defines_;
+  SourceFn source_ = nullptr;
+  mutable std::vector<GLuint> shaders_;  // of `paths_`, once it is begun; the program keeps them alive
+  mutable bool built_ = false;
 };
 
 }  // namespace rg::gl

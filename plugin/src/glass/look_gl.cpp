@@ -54,11 +54,12 @@ struct FrameBlock {
   float bead_mm3_per_unit, bead_sine;
   float pupil_m;
   float unused[3];
+  glm::vec4 sill;
   struct Blade {
     glm::vec4 middle_length, along_first, ahead;
   } blades[shared::kMaxGlassWipers];
 };
-static_assert(sizeof(FrameBlock) == 432 + 48 * shared::kMaxGlassWipers, "std140 lays it out so");
+static_assert(sizeof(FrameBlock) == 448 + 48 * shared::kMaxGlassWipers, "std140 lays it out so");
 
 glm::mat4 rotationOf(const glm::dmat4& m) { return glm::mat4(glm::dmat4(glm::dmat3(m))); }
 
@@ -77,6 +78,7 @@ LookPane lookPaneOf(const PaneDrawn& d) {
   p.vertex_buffer = d.vertex_buffer;
   p.index_buffer = d.index_buffer;
   p.index_count = d.index_count;
+  p.sill = d.sill;
   p.centre_m = d.centre_m;
   p.radius_m = d.radius_m;
   p.film_size = d.film_size;
@@ -113,11 +115,11 @@ struct GlassLook::Parts {
         no_environment(gl, GL_RGBA16F, 1),
         no_film(gl, GL_RGBA16F, 1, 1),
         water(gl, programs),
-        picture(gl),
+        picture(gl, programs),
         layers(gl, true),
         layer(gl),
         capture(gl),
-        lamps(gl),
+        lamps(gl, programs),
         fog(gl) {
     no_film.zero();
     mesh_layout.attribute(0, 0, 3, GL_FLOAT, 0);
@@ -133,6 +135,7 @@ struct GlassLook::Parts {
   void bindLook(const LookLight& light, const LookTarget& target);
   void setState(const LookView& view, const LookTarget& target);
   void bindMesh(const LookPane& pane, uint32_t indices);
+  void leaveMesh();
   void drawWater(const LookPane& pane, uint32_t parts);
   void drawInside(const LookPane& pane, uint32_t parts);
   void drawPieces(const LookPane& pane, uint32_t parts);
@@ -171,6 +174,7 @@ void GlassLook::Parts::fillFrame(const LookPane& pane, const LookView& view, con
   block.eye_from_vehicle = eyeFromVehicle;
   block.eye_from_world = rotationOf(view.eyeFromWorld);
   block.world_from_vehicle = rotationOf(pane.worldFromVehicle);
+  block.sill = pane.sill;
   block.eye_in_vehicle = glm::inverse(eyeFromVehicle)[3];
   block.sky_radiance = glm::vec4(light.sky_radiance, 0.0f);
   block.ground_radiance = glm::vec4(light.ground_radiance, 0.0f);
@@ -219,9 +223,6 @@ void GlassLook::Parts::bindLook(const LookLight& light, const LookTarget& target
   const uint32_t environment = environmentOf(light);
   choose(kEnvironment, environment != 0);
   choose(kEncoded, target.srgb);
-  // Made with the first pane that is drawn in such a light, not with the first drop that falls.
-  for (const LookStage stage : {LookStage::place, LookStage::drops, LookStage::small_drops})
-    programs.use(stage, variant);
   gl.BindTextureUnit(kSurroundings, environment != 0 ? environment : no_environment.name());
   gl.BindSampler(kSurroundings, mipped.name());
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -268,7 +269,7 @@ void GlassLook::Parts::drawWater(const LookPane& pane, uint32_t parts) {
     programs.use(LookStage::pane, (variant & ~kCoarse) | kFilm | kBeads | ridges);
     gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
   }
-  gl.Disable(GL_CULL_FACE);
+  leaveMesh();
 }
 
 void GlassLook::Parts::drawInside(const LookPane& pane, uint32_t parts) {
@@ -300,6 +301,13 @@ void GlassLook::Parts::bindMesh(const LookPane& pane, uint32_t indices) {
   mesh_layout.bindBuffer(0, pane.vertex_buffer, 0, kMeshStride);
   mesh_layout.bindIndices(indices);
   gl.BindVertexArray(mesh_layout.name());
+  if (pane.sill != glm::vec4(0.0f)) gl.Enable(GL_CLIP_DISTANCE0);
+}
+
+// What else is drawn says nothing of a sill.
+void GlassLook::Parts::leaveMesh() {
+  gl.Disable(GL_CLIP_DISTANCE0);
+  gl.Disable(GL_CULL_FACE);
 }
 
 void GlassLook::Parts::placeDrops(const LookPane& pane) {
@@ -366,6 +374,7 @@ void GlassLook::Parts::drawUnsharp(const LookPane& pane, const LookView& view, c
   gl.BindSampler(kFirst, mipped.name());
   programs.use(LookStage::unsharp);
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
+  leaveMesh();
 }
 
 // Between the eye and the water, of which it shows no more than of the rest: over the picture with both.
@@ -378,7 +387,7 @@ void GlassLook::Parts::drawFog(const LookPane& pane) {
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_FRONT);
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
-  gl.Disable(GL_CULL_FACE);
+  leaveMesh();
 }
 
 void GlassLook::Parts::forget() {

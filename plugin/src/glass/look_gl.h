@@ -88,6 +88,7 @@ struct LookPane {
   // everywhere.
   uint32_t piece_buffer = 0;
   int32_t piece_index_count = 0;  // of all pieces
+  glm::vec4 sill{0.0f};           // n, d: the mesh is seen where n . p + d >= 0; 0: all of it is
   glm::vec3 centre_m{0.0f};  // of the pane's bounding sphere, vehicle frame: panes are drawn from far to near
   float radius_m = 0.0f;
   // The grid's maps, all of `film_size`: uv 0..1 spans the grid.

@@ -36,7 +36,8 @@ double irradianceAt(const glm::dvec3& eye_m, const LookLamp& lamp) {
 
 }  // namespace
 
-LookLamps::LookLamps(const GladGLContext& gl) : gl_(&gl), block_(gl, sizeof(LampsBlock)) {}
+LookLamps::LookLamps(const GladGLContext& gl, LookPrograms& programs)
+    : gl_(&gl), programs_(&programs), block_(gl, sizeof(LampsBlock)) {}
 
 bool LookLamps::put(std::span<const LookLamp> lamps, const glm::dvec3& eye_world_m) {
   std::vector<AtEye> shining;
@@ -59,15 +60,11 @@ bool LookLamps::put(std::span<const LookLamp> lamps, const glm::dvec3& eye_world
 }
 
 void LookLamps::hide() {
-  if (!hide_) hide_.emplace(*gl_, std::initializer_list<std::string_view>{"glass/look_lamps.comp"});
-  hide_->use();
+  programs_->use(LookStage::hide);
   gl_->DispatchCompute(1, 1, 1);
   gl_->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void LookLamps::forget() {
-  block_.forget();
-  if (hide_) hide_->forget();
-}
+void LookLamps::forget() { block_.forget(); }
 
 }  // namespace rg::glass

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 
 #include "gl/objects.h"
-#include "gl/program.h"
 #include "glass/look_gl.h"
+#include "glass/look_programs_gl.h"
 
 namespace rg::glass {
 
@@ -16,7 +15,7 @@ inline constexpr int kMostLookLamps = 16;  // shaders/optics/look_lamp.glsl
 // Storage buffer 4 of the variants LAMPS.
 class LookLamps {
  public:
-  explicit LookLamps(const GladGLContext& gl);
+  LookLamps(const GladGLContext& gl, LookPrograms& programs);
   // Binds the block. False when none shines at the eye: then it is not needed.
   bool put(std::span<const LookLamp> lamps, const glm::dvec3& eye_world_m);
   // Puts those out that the target's depth says are hidden; the look's frame is bound.
@@ -25,8 +24,8 @@ class LookLamps {
 
  private:
   const GladGLContext* gl_;
+  LookPrograms* programs_;
   gl::Buffer block_;
-  std::optional<gl::Program> hide_;  // made when first wanted
 };
 
 }  // namespace rg::glass

@@ -23,9 +23,6 @@ void LookPicture::fetch(const glm::ivec4& viewport_px, const LookTarget& target,
 
 // From the first level whose sides the driver cannot simply halve.
 void LookPicture::halveOddLevels(const gl::Texture2D& picture) {
-  if (!halve_)
-    halve_.emplace(
-        *gl_, std::initializer_list<std::string_view>{"glass/look_screen.vert", "glass/look_halve.frag"});
   const GLuint name = picture.name();
   gl_->Disable(GL_DEPTH_TEST);
   gl_->Disable(GL_CULL_FACE);
@@ -33,7 +30,7 @@ void LookPicture::halveOddLevels(const gl::Texture2D& picture) {
   gl_->BindVertexArray(no_layout_.name());
   gl_->BindTextureUnit(0, name);
   gl_->BindSampler(0, 0);
-  halve_->use();
+  programs_->use(LookStage::halve);
   bool odd = false;
   glm::ivec2 size(picture.width(), picture.height());
   for (int level = 1; size != glm::ivec2(1); ++level) {
@@ -56,7 +53,6 @@ void LookPicture::forget() {
   canvases_.forget();
   level_.forget();
   no_layout_.forget();
-  if (halve_) halve_->forget();
 }
 
 }  // namespace rg::glass

@@ -3,18 +3,17 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 
 #include "gl/canvases.h"
-#include "gl/program.h"
 #include "glass/look_gl.h"
+#include "glass/look_programs_gl.h"
 
 namespace rg::glass {
 
 class LookPicture {
  public:
-  explicit LookPicture(const GladGLContext& gl)
-      : gl_(&gl), source_(gl), canvases_(gl, true), level_(gl), no_layout_(gl) {}
+  LookPicture(const GladGLContext& gl, LookPrograms& programs)
+      : gl_(&gl), programs_(&programs), source_(gl), canvases_(gl, true), level_(gl), no_layout_(gl) {}
 
   // Copies what the viewport of the target shows, as it is there, with mips. `exact`: mips are means to the
   // last pixel, for pictures in which single ones matter.
@@ -26,11 +25,11 @@ class LookPicture {
   void halveOddLevels(const gl::Texture2D& picture);
 
   const GladGLContext* gl_;
+  LookPrograms* programs_;
   gl::Framebuffer source_;  // reads the target's colour texture
   gl::Canvases canvases_;
   gl::Framebuffer level_;
   gl::VertexArray no_layout_;
-  std::optional<gl::Program> halve_;  // made when first wanted
   uint32_t texture_ = 0;
 };
 

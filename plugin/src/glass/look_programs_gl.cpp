@@ -16,7 +16,7 @@ struct Source {
 constexpr uint32_t kLit = kEnvironment | kEncoded;
 
 // By LookStage.
-constexpr std::array<Source, 13> kSources{
+constexpr std::array<Source, 15> kSources{
     {{"glass/look_cells.comp", "", kRidges},
      {"glass/look_kinds.comp", "", kPlain},
      {"glass/look_sort.comp", "", kPlain},
@@ -30,7 +30,9 @@ constexpr std::array<Source, 13> kSources{
      {"glass/look_pick.comp", "", kPlain},
      {"glass/look_drop.vert", "glass/look_drop.frag", kMirror | kLamps | kLit},
      {"glass/look_small.vert", "glass/look_small.frag", kPlain},
-     {"glass/look_pane.vert", "glass/look_unsharp.frag", kPlain}}};
+     {"glass/look_pane.vert", "glass/look_unsharp.frag", kPlain},
+     {"glass/look_lamps.comp", "", kPlain},
+     {"glass/look_screen.vert", "glass/look_halve.frag", kPlain}}};
 
 struct Name {
   LookVariant variant;
@@ -57,16 +59,62 @@ gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant
   return gl::Program(gl, {source.first, source.second}, defines);
 }
 
+// What of a variant a stage asks for. Only film has texels that may be few, and film seen from inside shows
+// the picture alone.
+uint32_t askedOf(LookStage stage, uint32_t variant) {
+  uint32_t asked = variant & kSources[static_cast<size_t>(stage)].asks;
+  if (stage != LookStage::pane) return asked;
+  if ((asked & kFilm) == 0 || (asked & kInside) == 0) asked &= ~uint32_t{kCoarse};
+  if ((asked & kInside) != 0 && (asked & kBeads) == 0) asked &= ~uint32_t{kEnvironment};
+  return asked;
+}
+
 }  // namespace
 
-const gl::Program& LookPrograms::use(LookStage stage, uint32_t variant) {
-  const Source& source = kSources[static_cast<size_t>(stage)];
-  const uint32_t asked = variant & source.asks;
+LookPrograms::LookPrograms(const GladGLContext& gl) : gl_(&gl) { makeAll(kPlain); }
+
+// In the order in which they may be waited for.
+void LookPrograms::makeAll(uint32_t encoded) {
+  using enum LookStage;
+  for (const LookStage stage :
+       {cells, kinds, sort, list, water, craters, pick, small_drops, unsharp, hide, halve})
+    made(stage, kPlain);
+  made(cells, kRidges);
+  for (const uint32_t around : {kEnvironment, kPlain}) {
+    const uint32_t lit = encoded | around;
+    for (const uint32_t ridges : {kPlain, kRidges}) {
+      for (const uint32_t coarse : {kPlain, kCoarse}) {
+        for (const uint32_t wet : {uint32_t{kFilm}, kFilm | kBeads})
+          made(pane, lit | kInside | coarse | wet | ridges);
+      }
+      for (const uint32_t mirror : {kPlain, kMirror}) made(pane, lit | kFilm | kBeads | mirror | ridges);
+    }
+    for (const uint32_t apart : {kPlain, kApart}) made(pane, lit | kInside | kBeads | apart);
+    for (const uint32_t lamps : {kPlain, kLamps}) {
+      for (const uint32_t mirror : {kPlain, kMirror}) {
+        for (const LookStage stage : {place, drops}) made(stage, lit | lamps | mirror);
+      }
+    }
+    made(fog, lit);
+  }
+}
+
+const gl::Program& LookPrograms::made(LookStage stage, uint32_t variant) {
+  const uint32_t asked = askedOf(stage, variant);
   auto known = programs_.find({stage, asked});
   if (known == programs_.end())
-    known = programs_.emplace(std::pair(stage, asked), make(*gl_, source, asked)).first;
-  known->second.use();
+    known =
+        programs_.emplace(std::pair(stage, asked), make(*gl_, kSources[static_cast<size_t>(stage)], asked))
+            .first;
   return known->second;
+}
+
+const gl::Program& LookPrograms::use(LookStage stage, uint32_t variant) {
+  const uint32_t asked = askedOf(stage, variant);
+  if ((asked & kEncoded) != 0 && !programs_.contains({stage, asked})) makeAll(kEncoded);
+  const gl::Program& program = made(stage, asked);
+  program.use();
+  return program;
 }
 
 void LookPrograms::forget() {

@@ -1,5 +1,5 @@
-// The look's programs, each made when it is first wanted. What is the same for all pixels of a draw is a
-// variant of its own, not a branch: software GL runs both sides of one.
+// The look's programs. What is the same for all pixels of a draw is a variant of its own, not a branch:
+// software GL runs both sides of one.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,9 @@ enum class LookStage : uint8_t {
   pick,
   drops,
   small_drops,
-  unsharp
+  unsharp,
+  hide,
+  halve
 };
 
 // Any of them together; those that a stage does not ask for make no difference to it.
@@ -44,16 +46,21 @@ enum LookVariant : uint32_t {
   kApart = 1024       // beads alone, by what they cover, to be blurred before they lie over the picture
 };
 
+// All that may be wanted of a pane whose mesh is cut into pieces, for targets of linear radiance, are made
+// with it, those for targets that hold sRGB when the first is wanted: then no lamp, no ridge and no mirror
+// that comes into view waits for a driver to compile (see gl::Building).
 class LookPrograms {
  public:
-  explicit LookPrograms(const GladGLContext& gl) : gl_(&gl) {}
-  // Makes it if it is not made yet, and uses it.
+  explicit LookPrograms(const GladGLContext& gl);
   const gl::Program& use(LookStage stage, uint32_t variant = kPlain);
   void forget();  // the context is gone
 
  private:
+  void makeAll(uint32_t encoded);
+  const gl::Program& made(LookStage stage, uint32_t variant);
+
   const GladGLContext* gl_;
-  std::map<std::pair<LookStage, uint32_t>, gl::Program> programs_;
+  std::map<std::pair<LookStage, uint32_t>, gl::Program> programs_;  // by what of a variant makes a difference
 };
 
 }  // namespace rg::glass

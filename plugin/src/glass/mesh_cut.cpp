@@ -112,12 +112,6 @@ Polygon cutPolygon(const Polygon& polygon, const std::function<double(const Mesh
   return out;
 }
 
-PaneMesh cutMesh(const PaneMesh& mesh, const std::function<Polygon(const Polygon&)>& cut) {
-  PaneMesh out;
-  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) append(out, cut(triangleOf(mesh, t)));
-  return out;
-}
-
 PieceMesh cutIntoPieces(const PaneMesh& mesh, glm::ivec2 texels) {
   const glm::ivec2 tiles = (texels + shared::kTileSize - 1) / shared::kTileSize;
   const auto tile_count = static_cast<size_t>(tiles.x) * static_cast<size_t>(tiles.y);

@@ -18,10 +18,6 @@ using MeshVertex = std::array<float, 8>;  // as in PaneMesh
 std::vector<MeshVertex> cutPolygon(const std::vector<MeshVertex>& polygon,
                                    const std::function<double(const MeshVertex&)>& inside);
 
-// The triangles of a mesh, each cut as `cut` does.
-PaneMesh cutMesh(const PaneMesh& mesh,
-                 const std::function<std::vector<MeshVertex>(const std::vector<MeshVertex>&)>& cut);
-
 // A mesh twice: what of it lies on each tile of the grid, then on each cell (shared/glass_tile.glsl); tiles
 // row by row, and the cells of the first, of the second and so on. Cells meet; a tile reaches a hair beyond
 // its edges, as its neighbour may have corners there that it has not, and no pixel is to be lost between

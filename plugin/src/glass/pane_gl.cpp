@@ -1,6 +1,6 @@
 #include "glass/pane_gl.h"
 
-#include <optional>
+#include <algorithm>
 
 #include "gl/objects.h"
 #include "glass/film_gl.h"
@@ -91,13 +91,13 @@ struct PaneGl::Parts {
         sim(std::move(pane)),
         film(gl, std::move(programs), sim->map(), sim->unevenness()),
         maps(makeMaps(gl, sim->map())) {
-    open(0.0);
+    cutMesh();
   }
 
   void uploadDrops();
   template <class Record>
   void upload(gl::Buffer& to, const std::vector<Record>& records) const;
-  void open(double to_m);
+  void cutMesh();
 
   const GladGLContext& gl;
   std::shared_ptr<PaneSim> sim;
@@ -105,7 +105,7 @@ struct PaneGl::Parts {
   Maps maps;
   gl::Buffer vertices, indices, pieces, drops, craters;
   size_t index_count = 0, piece_index_count = 0;
-  std::optional<double> opening_m;  // none: not made yet
+  double gone_at_m = 0.0;  // how far it slides until all of it is behind the sill
   std::shared_ptr<const PaneSnapshot> drawn;
 };
 
@@ -131,27 +131,20 @@ void PaneGl::Parts::uploadDrops() {
   upload(craters, drawn->craters);
 }
 
-void PaneGl::Parts::open(double to_m) {
-  if (opening_m == to_m) return;
-  const Slide& slide = sim->slide();
-  PaneMesh seen = slide.hides(to_m) ? cutAtSill(sim->mesh(), slide, to_m) : sim->mesh();
-  PieceMesh cut;
-  if (!seen.indices.empty()) {
-    seen.vertices = gridVertices(seen, sim->map().grid());
-    cut = cutIntoPieces(seen, sim->map().grid().size);
-    gl::Buffer made[] = {gl::Buffer(gl, std::span<const float>(cut.mesh.vertices)),
-                         gl::Buffer(gl, std::span<const uint32_t>(cut.mesh.indices)),
-                         gl::Buffer(gl, std::span<const uint32_t>(cut.first))};
-    vertices = std::move(made[0]);
-    indices = std::move(made[1]);
-    pieces = std::move(made[2]);
+void PaneGl::Parts::cutMesh() {
+  PaneMesh mesh = sim->mesh();
+  for (const uint32_t i : mesh.indices) {
+    const float* at = &mesh.vertices[size_t{8} * i];
+    gone_at_m = std::max(gone_at_m, sim->slide().way_m({at[0], at[1], at[2]}));
   }
+  mesh.vertices = gridVertices(mesh, sim->map().grid());
+  const PieceMesh cut = cutIntoPieces(mesh, sim->map().grid().size);
+  vertices = gl::Buffer(gl, std::span<const float>(cut.mesh.vertices));
+  indices = gl::Buffer(gl, std::span<const uint32_t>(cut.mesh.indices));
+  pieces = gl::Buffer(gl, std::span<const uint32_t>(cut.first));
   index_count = cut.tiles;
   piece_index_count = cut.mesh.indices.size();
-  opening_m = to_m;
 }
-
-void PaneGl::open(double opening_m) { parts_->open(opening_m); }
 
 // Ticks wait for reports, reports for steps, steps for the orders of ticks: round and round until no tick
 // waits.
@@ -189,15 +182,18 @@ void PaneGl::finish() {
   finish(std::span(&self, 1));
 }
 
-PaneDrawn PaneGl::drawn() const {
+PaneDrawn PaneGl::drawn(double opening_m) const {
   const PaneMap& map = parts_->sim->map();
+  const Slide& slide = parts_->sim->slide();
   PaneDrawn out;
   out.vertex_buffer = parts_->vertices.name();
   out.index_buffer = parts_->indices.name();
   out.piece_buffer = parts_->pieces.name();
-  out.index_count = static_cast<int32_t>(parts_->index_count);
+  const bool hides = slide.hides(opening_m);
+  if (!hides || opening_m < parts_->gone_at_m) out.index_count = static_cast<int32_t>(parts_->index_count);
+  if (hides) out.sill = slide.seenWhere(opening_m);
   out.piece_index_count = static_cast<int32_t>(parts_->piece_index_count);
-  out.slid_m = parts_->opening_m.value_or(0.0) * parts_->sim->slide().direction();
+  out.slid_m = opening_m * slide.direction();
   out.centre_m = map.centre_m();
   out.radius_m = map.radius_m();
   out.film = parts_->film.picture().name();

@@ -29,8 +29,9 @@ void abandonFilmPrograms(FilmPrograms& programs);
 struct PaneDrawn {
   uint32_t vertex_buffer =
       0;  // floats {x, y, z, nx, ny, nz, u, v}: uv in [0, 1] over the grid (its whole texture)
-  uint32_t index_buffer = 0;      // uint32_t triangles
-  int32_t index_count = 0;        // 0: all of it is behind its sill
+  uint32_t index_buffer = 0;  // uint32_t triangles
+  int32_t index_count = 0;    // 0: all of it is behind its sill
+  glm::vec4 sill{0.0f};  // n, d: glass is seen where n . p + d >= 0, p as the mesh has it; 0: all of it is
   uint32_t piece_buffer = 0;      // uint32_t: first index of each piece, see mesh_cut.h
   int32_t piece_index_count = 0;  // of all pieces, of which the first make up the mesh
   glm::dvec3 slid_m{0.0};         // how far from where the mesh and the maps have it, vehicle frame
@@ -74,9 +75,8 @@ class PaneGl {
   static void finish(std::span<PaneGl* const> panes);
   void finish();
 
-  // Draws the glass slid so far, and no more of it than is before the sill.
-  void open(double opening_m);
-  PaneDrawn drawn() const;
+  // The glass slid so far, and no more of it than is before the sill.
+  PaneDrawn drawn(double opening_m = 0.0) const;
   // Film as it is after finish(), row by row, -1 off the pane.
   std::vector<int32_t> readFilm();
   // Beads likewise, packed as in shared/glass_beads.glsl.

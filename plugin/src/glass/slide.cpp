@@ -5,8 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "glass/mesh_cut.h"
-
 namespace rg::glass {
 namespace {
 
@@ -92,14 +90,6 @@ size_t Slide::goneAt(const PaneMap& map, double opening_m) {
   if (!hides(opening_m)) return 0;
   if (order_.empty()) sort(map);
   return static_cast<size_t>(std::ranges::lower_bound(ways_m_, opening_m) - ways_m_.begin());
-}
-
-PaneMesh cutAtSill(const PaneMesh& mesh, const Slide& slide, double opening_m) {
-  return cutMesh(mesh, [&](const std::vector<MeshVertex>& triangle) {
-    return cutPolygon(triangle, [&](const MeshVertex& v) {
-      return slide.way_m({v[0], v[1], v[2]}) - opening_m;
-    });
-  });
 }
 
 }  // namespace rg::glass

@@ -23,6 +23,9 @@ class Slide {
   // Whether an opening may put some of it behind the sill: with a sill of its own even a window that is shut.
   bool hides(double opening_m) const { return opening_m > 0.0 || given_; }
 
+  // The half space (n, d) of n . p + d >= 0 in which the glass, lying as when shut, is seen at an opening.
+  glm::dvec4 seenWhere(double opening_m) const { return {-glm::dvec3(sill_), sill_.w - fall_ * opening_m}; }
+
   // Texels in the order in which they go behind the sill, and how many of them have at an opening.
   int texel(const PaneMap& map, size_t i);
   size_t texels(const PaneMap& map);  // how many there are
@@ -39,8 +42,5 @@ class Slide {
   std::vector<int> order_;
   std::vector<double> ways_m_;  // ascending
 };
-
-// The part of a mesh that is seen at an opening, as it lies when shut.
-PaneMesh cutAtSill(const PaneMesh& mesh, const Slide& slide, double opening_m);
 
 }  // namespace rg::glass

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "gl/canvases.h"
 #include "gl/program.h"
@@ -27,19 +26,14 @@ int levelsFor(const glm::ivec4& viewport_px) {
   return levels;
 }
 
-struct GlowPrograms {
-  explicit GlowPrograms(const GladGLContext& gl)
-      : gather(gl, {"glass/look_screen.vert", "surroundings/glow_gather.frag"}),
-        spread(gl, {"glass/look_screen.vert", "surroundings/glow_spread.frag"}),
-        lay(gl, {"glass/look_screen.vert", "surroundings/glow_lay.frag"}) {}
-  gl::Program gather, spread, lay;
-};
-
 }  // namespace
 
 struct GlowRenderer::Objects {
   explicit Objects(const gl::Context& context)
       : gl(context.gl),
+        gather_levels(gl, {"glass/look_screen.vert", "surroundings/glow_gather.frag"}),
+        spread_light(gl, {"glass/look_screen.vert", "surroundings/glow_spread.frag"}),
+        lay(gl, {"glass/look_screen.vert", "surroundings/glow_lay.frag"}),
         copies(gl, false),
         pyramids(gl, true),
         level(gl),
@@ -50,7 +44,7 @@ struct GlowRenderer::Objects {
         canvas(gl) {}
 
   const GladGLContext& gl;
-  std::optional<GlowPrograms> programs;  // made when first wanted
+  gl::Program gather_levels, spread_light, lay;
   gl::Canvases copies, pyramids;
   gl::Framebuffer level;
   gl::VertexArray no_vertices;
@@ -88,9 +82,9 @@ void GlowRenderer::Objects::gather(const rain::RainDraw& draw, gl::Texture2D& py
     high -= corner;
     corner = {0, 0};
   }
-  programs->gather.set(0, glm::ivec4(corner, size));
-  programs->gather.set(1, glm::ivec4(low, high));
-  programs->gather.use();
+  gather_levels.set(0, glm::ivec4(corner, size));
+  gather_levels.set(1, glm::ivec4(low, high));
+  gather_levels.use();
   gl.BindTextureUnit(3, picture);
   gl.BindSampler(3, nearest.name());
   gl.Disablei(GL_BLEND, 0);
@@ -105,12 +99,12 @@ void GlowRenderer::Objects::spread(const gl::Texture2D& pyramid, std::span<const
   gl.BlendFuncSeparatei(0, GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
   gl.BindTextureUnit(3, pyramid.name());
   gl.BindSampler(3, mirrored.name());
-  programs->spread.use();
+  spread_light.use();
   float coarser = shares.back();  // nothing has weighted the last level yet
   for (int k = static_cast<int>(shares.size()) - 2; k >= 0; --k) {
     gl.TextureParameteri(pyramid.name(), GL_TEXTURE_BASE_LEVEL, k + 1);  // no level is read while it is
     gl.TextureParameteri(pyramid.name(), GL_TEXTURE_MAX_LEVEL, k + 1);   // written
-    programs->spread.set(0, glm::vec2(coarser, shares[static_cast<size_t>(k)]));
+    spread_light.set(0, glm::vec2(coarser, shares[static_cast<size_t>(k)]));
     drawTo(pyramid, k);
     coarser = 1.0f;
   }
@@ -128,7 +122,6 @@ void GlowRenderer::draw(const rain::RainDraw& draw, double strength) {
   const bool beside =
       v.x >= draw.target.width_px || v.y >= draw.target.height_px || v.x + v.z <= 0 || v.y + v.w <= 0;
   if (!(strength > 0.0) || draw.target.srgb || levels < 2 || beside) return;
-  if (!o.programs) o.programs.emplace(o.gl);
   std::vector<float> shares = glareShares(0.5 * std::abs(draw.view->clipFromEye[1][1]) * v.w, levels);
   float all = 0.0f;
   for (float& share : shares) all += share *= static_cast<float>(strength);
@@ -148,20 +141,16 @@ void GlowRenderer::draw(const rain::RainDraw& draw, double strength) {
   plain.target.depth_texture = 0;
   o.canvas.begin(plain);
   o.gl.Disable(GL_DEPTH_TEST);
-  o.programs->lay.set(0, glm::vec4(v.x, v.y, 2 * pyramid.width(), 2 * pyramid.height()));
-  o.programs->lay.set(1, all);
-  o.programs->lay.use();
+  o.lay.set(0, glm::vec4(v.x, v.y, 2 * pyramid.width(), 2 * pyramid.height()));
+  o.lay.set(1, all);
+  o.lay.use();
   o.gl.BindSampler(3, o.smooth.name());
   o.gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void GlowRenderer::forget() {
   Objects& o = *objects_;
-  if (o.programs) {
-    o.programs->gather.forget();
-    o.programs->spread.forget();
-    o.programs->lay.forget();
-  }
+  for (gl::Program* program : {&o.gather_levels, &o.spread_light, &o.lay}) program->forget();
   o.copies.forget();
   o.pyramids.forget();
   o.level.forget();
