@@ -26,8 +26,9 @@ inline std::vector<rg::glass::PlacedDrop> dropsOnGlass(int number) {
     const auto n = static_cast<uint32_t>(i);
     const bool slides = n % kOneInSlides == 0;
     rg::glass::PlacedDrop drop;
-    drop.u_m = (i % columns + 0.35 + 0.3 * unit(n, 1)) * cell_m - 0.5 * columns * cell_m;
-    drop.v_m = (static_cast<double>(i / columns) + 0.35 + 0.3 * unit(n, 2)) * cell_m - 0.49 * kHeight_m;
+    const int column = i % columns, row = i / columns;
+    drop.u_m = (column + 0.35 + 0.3 * unit(n, 1)) * cell_m - 0.5 * columns * cell_m;
+    drop.v_m = (row + 0.35 + 0.3 * unit(n, 2)) * cell_m - 0.49 * kHeight_m;
     drop.base_radius_m = slides ? 3.0e-3 + 0.5e-3 * unit(n, 3) : 0.4e-3 + 0.6e-3 * unit(n, 4);
     drop.contact_angle_rad = slides ? 0.9 : 0.6;
     placed.push_back(drop);
