@@ -5,7 +5,7 @@
  *
  * ORDER OF CALLS
  *
- *   api = rg_get_entry(RG_ABI_MAJOR)                         the one exported symbol
+ *   api = rg_get_entry(RG_ABI_VERSION)                       the one exported symbol
  *   api->create                                              any thread
  *   api->attach_gl                                           GL thread, context current
  *   api->set_volume, set_vehicle, set_pane, set_wiper ...    any time; stable ids of your choice, 0 is never an id
@@ -62,7 +62,9 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 7u
+#define RG_ABI_MINOR 8u
+/* What this header's hosts pass to rg_get_entry. */
+#define RG_ABI_VERSION (RG_ABI_MAJOR << 16 | RG_ABI_MINOR)
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -527,7 +529,7 @@ typedef struct rg_rain_pattern {
 
 typedef struct rg_api {
   uint32_t struct_size;
-  uint32_t abi_minor;
+  uint32_t abi_minor;  /* of the plugin */
   const char* version; /* of the plugin, static */
 
   /* Defaults: fill in *out wholly, struct_size included; null does nothing. [thread: any] */
@@ -659,9 +661,15 @@ typedef struct rg_api {
   rg_result (*set_airflow)(rg_instance* instance, uint32_t pane, const rg_airflow* airflow);
 } rg_api;
 
-/* The table for this ABI major, or null when this library does not speak it. Static: never freed. [thread:
- * any] */
-RG_EXPORT const rg_api* rg_get_entry(uint32_t abi_major);
+/* The table of functions for hosts of a version of this header: pass RG_ABI_VERSION. Null when this library
+ * does not speak its major. Its default_* functions fill in structs as that version has them and write
+ * nothing behind, however much they have grown since. Of a version newer than the library they fill in what
+ * the library knows, which is all it reads.
+ *
+ * A bare RG_ABI_MAJOR, as hosts of minors 0 to 7 pass it, tells no minor and is taken for minor 0. What came
+ * since then is as by default to such a host, until it fills in all of it and sets struct_size to sizeof.
+ * Static: never freed. [thread: any] */
+RG_EXPORT const rg_api* rg_get_entry(uint32_t abi_version);
 
 #ifdef __cplusplus
 }
