@@ -474,7 +474,7 @@ typedef struct rg_pane_stats {
   double ridge_ml;     /* of on_glass: carried by blades */
   /* Since minor 3. */
   double dropped_s; /* time that was left out for this pane since it was made or reset: of stalls longer than
-                       time.catch_up_s, and while step_gpu did not come for more than 4 s */
+                       time.catch_up_s, and while step_gpu did not come for more than 5 s */
   /* Since minor 7. */
   double run_on_ml; /* of caught: ran off other panes of its vehicle and round the pillar (glass.run_off) */
 } rg_pane_stats;
