@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "small_scene.h"
@@ -144,6 +145,47 @@ TEST(OlderHosts, areToldWhatThePluginIs) {
     EXPECT_EQ(api->abi_minor, RG_ABI_MINOR);
     EXPECT_EQ(api->struct_size, sizeof(rg_api));
   }
+}
+
+// What the header says of them, and 0 where it says nothing.
+TEST(Defaults, areAsTheHeaderSays) {
+  const PluginLibrary library;
+  const rg_api& api = *library.api;
+  const auto expect = [](const char* name, auto fill, auto say) {
+    Stack got(0xa5), said(0);
+    fill(got.bytes.data());
+    const uint32_t size = got.structSize();
+    std::memcpy(said.bytes.data(), &size, sizeof size);
+    say(said.bytes.data());
+    EXPECT_TRUE(std::equal(got.bytes.begin(), got.bytes.begin() + size, said.bytes.begin())) << name;
+  };
+#define RG_SAYS(name, ...)                                                         \
+  expect(                                                                          \
+      #name, [&](void* out) { api.default_##name(static_cast<rg_##name*>(out)); }, \
+      [](void* out) {                                                              \
+        [[maybe_unused]] rg_##name& s = *static_cast<rg_##name*>(out);             \
+        __VA_ARGS__;                                                               \
+      })
+  RG_SAYS(create_info, s.max_drops = 131072, s.seed = 1);
+  RG_SAYS(gl_info, );
+  RG_SAYS(vehicle, s.pose.orientation[3] = 1);
+  RG_SAYS(weather, s.temperature_c = 12, s.humidity = 0.9, s.visibility_m = 40000, s.ground_height_m = -1e8);
+  RG_SAYS(view, s.id = 1, s.exposure_s = 1.0 / 60;
+          for (int i = 0; i < 16; i += 5) s.eye_from_world[i] = s.projection[i] = 1);
+  RG_SAYS(sample, s.vehicle_stride = sizeof(rg_vehicle), s.view_stride = sizeof(rg_view));
+  RG_SAYS(volume_info, s.active = 1);
+  RG_SAYS(pane_info, s.glass = RG_GLASS_UNCOATED, s.active = 1, s.texel_m = 3e-3, s.max_drops = 20000,
+          s.film_enabled = 1);
+  RG_SAYS(wiper_info, s.axis[2] = 1, s.rest_direction[0] = 1, s.arm_m = 0.5, s.blade_m = 0.6,
+          s.residual_film_m = 1e-7, s.lift_m = 2e-3);
+  RG_SAYS(wash_info, s.duration_s = 1, s.volume_m3 = 2e-5, s.direction[0] = 1, s.fan_rad = 0.2);
+  RG_SAYS(airflow, s.stagnation = 0.65, s.outward = 0.35, s.lee = 0.25, s.drag_friction = 0.004);
+  RG_SAYS(target, s.samples = 1, s.color_space = RG_LINEAR_HDR, s.exposure = 1);
+  RG_SAYS(lighting, for (int i = 0; i < 3; ++i) s.sky_radiance[i] = 1.0f, s.ground_radiance[i] = 0.2f);
+  RG_SAYS(draw, );
+  RG_SAYS(capture_info, s.max_faces = 1);
+  RG_SAYS(rain_pattern, );
+#undef RG_SAYS
 }
 
 }  // namespace
