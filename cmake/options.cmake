@@ -25,6 +25,11 @@ if(RG_SANITIZE)
   # compiling them.
   target_compile_options(rg_options INTERFACE $<$<BOOL:$<TARGET_PROPERTY:RG_TEST_CODE>>:-fno-sanitize=undefined;-O0>)
 endif()
+# What tests do themselves is soon done and slow to optimise, a quarter of the time of compiling it. (Those without precompiled headers
+# have -O0 of their own.)
+if(NOT RG_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL Debug)
+  target_compile_options(rg_options INTERFACE $<$<AND:$<BOOL:$<TARGET_PROPERTY:RG_TEST_CODE>>,$<NOT:$<BOOL:$<TARGET_PROPERTY:DISABLE_PRECOMPILE_HEADERS>>>>:-O1>)
+endif()
 target_compile_definitions(rg_options INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR)
 find_package(glm REQUIRED)
 find_package(Threads REQUIRED)

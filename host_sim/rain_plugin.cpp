@@ -94,7 +94,7 @@ RainPlugin::RainPlugin(const std::filesystem::path& library, uint64_t seed) {
   if (library_ == nullptr) throw PluginError(std::string("the plugin cannot be loaded: ") + dlerror());
   const auto entry = reinterpret_cast<const rg_api* (*)(uint32_t)>(dlsym(library_, "rg_get_entry"));
   if (entry == nullptr) throw PluginError(file.string() + " has no rg_get_entry");
-  api_ = entry(RG_ABI_MAJOR);
+  api_ = entry(RG_ABI_VERSION);
   if (api_ == nullptr) throw PluginError(file.string() + " does not speak this ABI");
   create(seed);
 }

@@ -22,6 +22,7 @@ namespace {
 constexpr int64_t kLongestStep_ns = 100'000'000;  // a slower picture makes the world slower, not jumpy
 constexpr int64_t kPrewarmPiece_ns = 100'000'000;
 constexpr double kPrewarmPictureEvery_s = 0.25;
+constexpr double kNotice_s = 5.0;  // how long what a key did is told
 
 using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point begin) {
@@ -62,8 +63,10 @@ class WindowRun {
   void followSize();
   void show(const char* note);
   void writePicture();
-  void saveOrRestore();
-  void restoreFrom(const std::filesystem::path& file);
+  enum class Wanted { nothing, save, restore };
+  void doWhatIsWanted();
+  std::string saveOrRestore(Wanted wanted);
+  const char* note() const;
   void report(double wall_s);
 
   const Options& options_;
@@ -76,7 +79,9 @@ class WindowRun {
   int64_t time_ns_ = 0;
   uint64_t frames_ = 0;
   double mean_frame_s_ = 0.0;
-  enum class Wanted { nothing, save, restore } wanted_ = Wanted::nothing;
+  Wanted wanted_ = Wanted::nothing;
+  std::string notice_;
+  Clock::time_point noticed_;
   Clock::time_point before_ = Clock::now();
 };
 
@@ -104,7 +109,7 @@ int WindowRun::run() {
   if (options_.restore.empty())
     prewarm();
   else
-    restoreFrom(options_.restore);
+    time_ns_ = restoreFrom(stage_, readRun(options_.restore, scenario_), options_.restore);
   const auto begin = before_ = Clock::now();
   drive();
   if (!options_.save.empty()) saveTo(stage_, time_ns_, options_.save);
@@ -140,30 +145,39 @@ void WindowRun::drive() {
       time_ns_ += std::min({int64_t{passed_ns}, kLongestStep_ns, end_ns - time_ns_});
       stage_.update(time_ns_);
     }
-    saveOrRestore();
-    show(pilot_.paused() ? "paused" : "");
+    doWhatIsWanted();
+    show(note());
   }
-}
-
-void WindowRun::restoreFrom(const std::filesystem::path& file) {
-  time_ns_ = host::restoreFrom(stage_, readRun(file, scenario_), file);
 }
 
 // Whatever is wrong with the file, or with the moment, the drive goes on.
-void WindowRun::saveOrRestore() {
+void WindowRun::doWhatIsWanted() {
   const Wanted wanted = std::exchange(wanted_, Wanted::nothing);
   if (wanted == Wanted::nothing) return;
-  const std::filesystem::path file = options_.save.empty() ? options_.out / "saved.run" : options_.save;
   try {
-    if (wanted == Wanted::save)
-      saveTo(stage_, time_ns_, file);
-    else
-      restoreFrom(file);
-  } catch (const InputError& e) {
-    std::fprintf(stderr, "host_sim: %s\n", e.what());
-  } catch (const PluginError& e) {
+    notice_ = saveOrRestore(wanted);
+  } catch (const std::runtime_error& e) {
+    notice_ = e.what();
     std::fprintf(stderr, "host_sim: %s\n", e.what());
   }
+  noticed_ = Clock::now();
+}
+
+std::string WindowRun::saveOrRestore(Wanted wanted) {
+  const std::filesystem::path file = options_.save.empty() ? options_.out / "saved.run" : options_.save;
+  if (wanted == Wanted::save)
+    saveTo(stage_, time_ns_, file);
+  else
+    time_ns_ = restoreFrom(stage_, readRun(file, scenario_), file);
+  char text[64];
+  std::snprintf(text, sizeof text, "%s at %.1f s", wanted == Wanted::save ? "saved" : "back",
+                static_cast<double>(time_ns_) * 1e-9);
+  return text;
+}
+
+const char* WindowRun::note() const {
+  if (!notice_.empty() && secondsSince(noticed_) < kNotice_s) return notice_.c_str();
+  return pilot_.paused() ? "paused" : "";
 }
 
 void WindowRun::followSize() {

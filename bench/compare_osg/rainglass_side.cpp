@@ -23,7 +23,7 @@ RainglassSide::RainglassSide(const GladGLContext& gl, uint32_t framebuffer, cons
     : gl_(gl), framebuffer_(framebuffer), library_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL)) {
   if (library_ == nullptr) throw std::runtime_error(dlerror());
   const auto entry = reinterpret_cast<const rg_api* (*)(uint32_t)>(dlsym(library_, "rg_get_entry"));
-  if (entry == nullptr || (api_ = entry(RG_ABI_MAJOR)) == nullptr)
+  if (entry == nullptr || (api_ = entry(RG_ABI_VERSION)) == nullptr)
     throw std::runtime_error(library + " is no Rainglass of this version");
   rg_create_info create;
   api_->default_create_info(&create);

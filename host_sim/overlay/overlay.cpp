@@ -187,7 +187,11 @@ void Overlay::draw(Stage& stage, glm::ivec2 size_px, double seconds, double fps,
 
 void Overlay::drawStatus(Stage& stage, double fps, const char* note) const {
   Simulation& sim = stage.simulation();
-  if (*note != '\0') ImGui::TextColored({1.0F, 0.8F, 0.4F, 1.0F}, "%s", note);
+  if (*note != '\0') {
+    ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x - 4.0F * kMargin_px);
+    ImGui::TextColored({1.0F, 0.8F, 0.4F, 1.0F}, "%s", note);
+    ImGui::PopTextWrapPos();
+  }
   if (!beginTable("status", 2)) return;
   row("speed", "%.0f km/h%s", sim.driver().state().speed_mps * 3.6,
       sim.overrides.controls ? ", by hand" : "");

@@ -1,7 +1,9 @@
 // The ABI's edge: checks arguments, catches everything, returns a code. No maths here.
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "api_call.h"
@@ -142,9 +144,7 @@ void readLamps(const rg_lighting& in, DrawRequest& out) {
 }
 
 void readLighting(const rg_lighting* in, DrawRequest& out) {
-  rg_lighting light;
-  defaultLighting(&light);
-  if (in != nullptr) light = readStruct(in, "rg_lighting", light);
+  const rg_lighting light = in != nullptr ? readStruct(in, "rg_lighting") : defaults<rg_lighting>();
   out.lighting.sky_radiance = radiance(light.sky_radiance, "rg_lighting.sky_radiance");
   out.lighting.ground_radiance = radiance(light.ground_radiance, "rg_lighting.ground_radiance");
   out.lighting.sun_irradiance = radiance(light.sun_irradiance, "rg_lighting.sun_irradiance");
@@ -376,23 +376,25 @@ rg_result setParameter(rg_instance* instance, const char* name, double value) {
   });
 }
 
+// As hosts of that minor have it.
+template <uint32_t kMinor>
 constexpr rg_api kApi = {
     sizeof(rg_api),
     RG_ABI_MINOR,
     RG_VERSION,
-    defaultCreateInfo,
-    defaultGlInfo,
-    defaultVehicle,
-    defaultWeather,
-    defaultView,
-    defaultSample,
-    defaultVolumeInfo,
-    defaultPaneInfo,
-    defaultWiperInfo,
-    defaultTarget,
-    defaultLighting,
-    defaultDraw,
-    defaultCaptureInfo,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
+    fillDefaults<kMinor>,
     create,
     destroy,
     lastError,
@@ -428,16 +430,30 @@ constexpr rg_api kApi = {
     getParameterCount,
     getParameter,
     setParameter,
-    defaultRainPattern,
+    fillDefaults<kMinor>,
     setRainPattern,
-    defaultWashInfo,
+    fillDefaults<kMinor>,
     wash,
-    defaultAirflow,
+    fillDefaults<kMinor>,
     setAirflow,
 };
 
+template <size_t... kMinors>
+constexpr std::array<rg_api, sizeof...(kMinors)> tables(std::index_sequence<kMinors...>) {
+  return {kApi<uint32_t{kMinors}>...};
+}
+constexpr auto kTables = tables(std::make_index_sequence<RG_ABI_MINOR + 1>());
+
 }  // namespace
+
+// A bare major tells no minor: only what minor 0 had has room in all hosts' structs.
+const rg_api* tableFor(uint32_t version) {
+  if (version == RG_ABI_MAJOR) return &kTables.front();
+  const uint32_t major = version >> 16, minor = version & 0xffff;
+  return major == RG_ABI_MAJOR ? &kTables[std::min(minor, RG_ABI_MINOR)] : nullptr;
+}
+
 }  // namespace rg
 
-extern "C" const rg_api* rgTable(uint32_t abi_major);
-const rg_api* rgTable(uint32_t abi_major) { return abi_major == RG_ABI_MAJOR ? &rg::kApi : nullptr; }
+extern "C" const rg_api* rgTable(uint32_t abi_version);
+const rg_api* rgTable(uint32_t abi_version) { return rg::tableFor(abi_version); }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "api_call.h"
-#include "defaults.h"
 
 namespace rg {
 namespace {
@@ -135,9 +134,7 @@ rg_result removePane(rg_instance* instance, uint32_t id) {
 rg_result setWiper(rg_instance* instance, uint32_t id, const rg_wiper_info* in) {
   return guarded(instance, [&](Frame& frame) {
     checkId(id, "wiper");
-    rg_wiper_info preset;
-    defaultWiperInfo(&preset);
-    const rg_wiper_info info = readStruct(in, "rg_wiper_info", preset);
+    const rg_wiper_info info = readStruct(in, "rg_wiper_info");
     glass::WiperInfo wiper;
     wiper.pivot_m = finiteVector(info.pivot_m, "rg_wiper_info.pivot_m");
     wiper.axis = unitVector(info.axis, "rg_wiper_info.axis");

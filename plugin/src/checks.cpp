@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "defaults.h"
-
 namespace rg {
 namespace {
 
@@ -52,9 +50,7 @@ VehicleState readVehicle(const rg_vehicle* in) {
 }
 
 WeatherState readWeather(const rg_weather* in) {
-  rg_weather preset;
-  defaultWeather(&preset);
-  const rg_weather w = readStruct(in, "rg_weather", preset);
+  const rg_weather w = readStruct(in, "rg_weather");
   checkRange(w.rain_mm_h, 0.0, 300.0, "rg_weather.rain_mm_h");
   checkRange(w.snow_mm_h, 0.0, 300.0, "rg_weather.snow_mm_h");
   checkRange(w.hail_mm_h, 0.0, 300.0, "rg_weather.hail_mm_h");
@@ -209,12 +205,12 @@ Sample readSample(const rg_sample* in, const Sample* before) {
     out.weather = readWeather(s.weather);
   else if (before != nullptr)
     out.weather = before->weather;
-  checkArray(s.vehicles, s.vehicle_count, s.vehicle_stride, sizeof(rg_vehicle), kMostBodies,
+  checkArray(s.vehicles, s.vehicle_count, s.vehicle_stride, kFirstSize<rg_vehicle>, kMostBodies,
              "rg_sample.vehicles");
   for (uint32_t i = 0; i < s.vehicle_count; ++i)
     out.vehicles.push_back(readVehicle(element(s.vehicles, s.vehicle_stride, i)));
   refuseTwice(out.vehicles, "rg_sample.vehicles");
-  checkArray(s.views, s.view_count, s.view_stride, sizeof(rg_view), kMostViews, "rg_sample.views");
+  checkArray(s.views, s.view_count, s.view_stride, kFirstSize<rg_view>, kMostViews, "rg_sample.views");
   for (uint32_t i = 0; i < s.view_count; ++i)
     out.views.push_back(readView(element(s.views, s.view_stride, i)));
   refuseTwice(out.views, "rg_sample.views");

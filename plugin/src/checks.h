@@ -3,13 +3,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstring>
 #include <string>
 #include <vector>
 
+#include "defaults.h"
 #include "error.h"
+#include "struct_sizes.h"
 #include "tick.h"
 #include "timeline.h"
 
@@ -19,39 +19,11 @@ inline constexpr uint32_t kLargestStruct =
     4096;  // bytes; a struct_size above this is a mistake, not a newer header
 inline constexpr double kWidestOpening_m = 10.0;
 
-// Size of a struct in the first header that had it: hosts may still be compiled against that.
-template <typename T>
-inline constexpr size_t kFirstSize = sizeof(T);
-template <>
-inline constexpr size_t kFirstSize<rg_weather> = offsetof(rg_weather, hail_mm_h);
-template <>
-inline constexpr size_t kFirstSize<rg_wiper_info> = offsetof(rg_wiper_info, blade_turn);
-template <>
-inline constexpr size_t kFirstSize<rg_pane_info> = offsetof(rg_pane_info, demister);
-template <>
-inline constexpr size_t kFirstSize<rg_sample> = offsetof(rg_sample, opening_knots);
-template <>
-inline constexpr size_t kFirstSize<rg_lighting> = offsetof(rg_lighting, lamps_on_glass);
-template <>
-inline constexpr size_t kFirstSize<rg_rain_stats> = offsetof(rg_rain_stats, snow_mm_h);
-template <>
-inline constexpr size_t kFirstSize<rg_pane_stats> = offsetof(rg_pane_stats, dropped_s);
-
-// And in those between the first and this one, where there were such.
-template <typename T>
-inline constexpr std::array kMiddleSizes = {kFirstSize<T>};
-template <>
-inline constexpr std::array kMiddleSizes<rg_pane_info> = {offsetof(rg_pane_info, slide_direction)};
-template <>
-inline constexpr std::array kMiddleSizes<rg_rain_stats> = {offsetof(rg_rain_stats, ground_water_mm),
-                                                           offsetof(rg_rain_stats, splash_thinning)};
-
 // How much of a struct of that size is known here: as this header or one before it says; a longer one's end
 // is a later header's. Refuses sizes that fit none.
 template <typename T>
 size_t knownSize(uint32_t struct_size, const char* name) {
-  const bool older = struct_size == kFirstSize<T> ||
-                     std::ranges::find(kMiddleSizes<T>, struct_size) != kMiddleSizes<T>.end();
+  const bool older = std::ranges::find(kSizes<T>, struct_size, &SizeSince::bytes) != kSizes<T>.end();
   if (!older && (struct_size < sizeof(T) || struct_size > kLargestStruct)) {
     refuse(std::string(name) + ".struct_size is " + std::to_string(struct_size) + ", must be " +
                std::to_string(sizeof(T)) + " or what another header says",
@@ -60,12 +32,13 @@ size_t knownSize(uint32_t struct_size, const char* name) {
   return struct_size < sizeof(T) ? struct_size : sizeof(T);
 }
 
-// A struct of any ABI version; what an older one lacks is as in `preset`.
+// A struct of any ABI version; what an older one lacks is as by default.
 template <typename T>
-T readStruct(const T* in, const char* name, T preset = T{}) {
+T readStruct(const T* in, const char* name) {
   if (in == nullptr) refuse(std::string(name) + " is null");
-  std::memcpy(&preset, in, knownSize<T>(in->struct_size, name));
-  return preset;
+  T all = defaults<T>();
+  std::memcpy(&all, in, knownSize<T>(in->struct_size, name));
+  return all;
 }
 
 // Element i of an array with a stride in bytes; checkArray has seen that all its elements are aligned.

@@ -1,25 +1,57 @@
-// The ABI's default_* functions. Null does nothing.
+// The ABI's default_* functions, and what the plugin takes for the ends of structs that an older host's
+// header does not have.
 #pragma once
 
-#include "rainglass/rainglass.h"
+#include <cstring>
+#include <type_traits>
+
+#include "struct_sizes.h"
 
 namespace rg {
 
-void defaultCreateInfo(rg_create_info* out);
-void defaultGlInfo(rg_gl_info* out);
-void defaultVehicle(rg_vehicle* out);
-void defaultWeather(rg_weather* out);
-void defaultView(rg_view* out);
-void defaultSample(rg_sample* out);
-void defaultVolumeInfo(rg_volume_info* out);
-void defaultPaneInfo(rg_pane_info* out);
-void defaultWiperInfo(rg_wiper_info* out);
-void defaultWashInfo(rg_wash_info* out);
-void defaultAirflow(rg_airflow* out);
-void defaultTarget(rg_target* out);
-void defaultLighting(rg_lighting* out);
-void defaultDraw(rg_draw* out);
-void defaultCaptureInfo(rg_capture_info* out);
-void defaultRainPattern(rg_rain_pattern* out);
+// Without sizes and strides, which are the host's.
+template <typename T>
+T defaults() {
+  return {};
+}
+template <>
+rg_create_info defaults();
+template <>
+rg_vehicle defaults();
+template <>
+rg_weather defaults();
+template <>
+rg_view defaults();
+template <>
+rg_volume_info defaults();
+template <>
+rg_pane_info defaults();
+template <>
+rg_wiper_info defaults();
+template <>
+rg_wash_info defaults();
+template <>
+rg_airflow defaults();
+template <>
+rg_target defaults();
+template <>
+rg_lighting defaults();
+template <>
+rg_capture_info defaults();
+
+// For a host of that minor: as much as its struct has room for, and nothing for null, as no code can be
+// returned.
+template <uint32_t kMinor, typename T>
+void fillDefaults(T* out) {
+  if (out == nullptr) return;
+  constexpr size_t kSize = sizeIn<T>(kMinor);
+  T all = defaults<T>();
+  all.struct_size = uint32_t{kSize};
+  if constexpr (std::is_same_v<T, rg_sample>) {
+    all.vehicle_stride = sizeIn<rg_vehicle>(kMinor);
+    all.view_stride = sizeIn<rg_view>(kMinor);
+  }
+  std::memcpy(out, &all, kSize);
+}
 
 }  // namespace rg

@@ -4,6 +4,8 @@
 
 #include <span>
 
+#include "tick.h"
+
 namespace rg {
 
 struct Settings {
@@ -34,7 +36,7 @@ struct Settings {
   double wind_roughness_m = 0.0;
   double wind_height_m = 1.5;
   double precipitation_by_temperature = 0.0;
-  double time_catch_up_s = 5.0;
+  double time_catch_up_s = double{kLongestCatchUp_s};
   double bench_repeat = 1.0;
 };
 
@@ -133,8 +135,8 @@ inline constexpr SettingInfo kSettings[] = {
      "1: rain and snow together are shared out anew by temperature and humidity; 0: they fall as told", 0.0,
      1.0, &Settings::precipitation_by_temperature},
     {"time.catch_up_s", "s", "time",
-     "the longest stall that is caught up with; of a longer one the rest is left out", 0.1, 60.0,
-     &Settings::time_catch_up_s},
+     "the longest stall that is caught up with; of a longer one the rest is left out", 0.1,
+     double{kLongestCatchUp_s}, &Settings::time_catch_up_s},
     {"bench.repeat", "1", "bench",
      "draws rain and glass so many times in one stage, to see a frame budget trip", 1.0, 16.0,
      &Settings::bench_repeat},

@@ -13,6 +13,7 @@ namespace rg {
 // depends on how updates fall.
 inline constexpr int64_t kTickHz = 120;  // drops on glass and rain; the film runs every second tick
 inline constexpr double kTickSeconds = 1.0 / static_cast<double>(kTickHz);
+inline constexpr int64_t kLongestCatchUp_s = 4;  // of a longer stall the rest is left out
 
 // floor(k * 1e9 / 120), exact for |k| < 3e11 (80 years).
 constexpr int64_t tickTimeNs(int64_t tick) {

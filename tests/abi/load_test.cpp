@@ -60,7 +60,9 @@ TEST_F(Load, andUseAndUnloadTwiceLeavesNothing) {
 
 TEST_F(Load, exportsOneSymbolAndSpeaksOneMajor) {
   const PluginLibrary library;
-  EXPECT_EQ(library.unknown_major, nullptr);
+  for (const uint32_t other : {0u, RG_ABI_MAJOR + 1, (RG_ABI_MAJOR - 1) << 16 | RG_ABI_MINOR,
+                               (RG_ABI_MAJOR + 1) << 16 | RG_ABI_MINOR, UINT32_MAX})
+    EXPECT_EQ(library.entry(other), nullptr) << other;
   EXPECT_EQ(library.api->struct_size, sizeof(rg_api));
   EXPECT_EQ(library.api->abi_minor, RG_ABI_MINOR);
   EXPECT_STRNE(library.api->version, "");

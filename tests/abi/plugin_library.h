@@ -16,10 +16,9 @@ class PluginLibrary {
 
   PluginLibrary() : handle_(dlopen(path().c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr) throw std::runtime_error(dlerror());
-    const auto entry = reinterpret_cast<const rg_api* (*)(uint32_t)>(dlsym(handle_, "rg_get_entry"));
+    entry = reinterpret_cast<const rg_api* (*)(uint32_t)>(dlsym(handle_, "rg_get_entry"));
     if (entry == nullptr) throw std::runtime_error("no rg_get_entry");
-    api = entry(RG_ABI_MAJOR);
-    unknown_major = entry(RG_ABI_MAJOR + 1);
+    api = entry(RG_ABI_VERSION);
     if (api == nullptr) throw std::runtime_error("no table");
   }
   ~PluginLibrary() { dlclose(handle_); }
@@ -33,8 +32,8 @@ class PluginLibrary {
     return again != nullptr;
   }
 
-  const rg_api* api = nullptr;
-  const rg_api* unknown_major = nullptr;
+  const rg_api* (*entry)(uint32_t) = nullptr;
+  const rg_api* api = nullptr;  // for this header
 
  private:
   void* handle_;

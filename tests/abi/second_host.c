@@ -19,7 +19,7 @@ static const rg_api* open_plugin(const char* path) {
   require(library != NULL, "the plugin cannot be opened");
   const rg_api* (*entry)(uint32_t) = NULL;
   *(void**)&entry = dlsym(library, "rg_get_entry");
-  const rg_api* api = entry != NULL ? entry(RG_ABI_MAJOR) : NULL;
+  const rg_api* api = entry != NULL ? entry(RG_ABI_VERSION) : NULL;
   require(api != NULL, "the plugin speaks another ABI");
   return api;
 }

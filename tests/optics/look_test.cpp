@@ -1,54 +1,15 @@
 // What is seen through a wet pane, against the laws of optics.
-#include <cmath>
-#include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <random>
+#include "look.h"
 
-#include "environment.h"
-#include "flat_pane.h"
-#include "gl_fixture.h"
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "shared/glass_crater.glsl"
 
 namespace rg::test {
 namespace {
 
 using shared::GlassDropRecord;
-
-const double kRake = glm::radians(30.0);
-const double kFov = glm::radians(40.0);
-
-std::vector<glm::vec4> paint(glm::ivec2 size_px, const std::function<glm::vec3(int x, int y)>& color) {
-  std::vector<glm::vec4> pixels;
-  for (int y = 0; y < size_px.y; ++y) {
-    for (int x = 0; x < size_px.x; ++x) pixels.emplace_back(color(x, y), 1.0f);
-  }
-  return pixels;
-}
-
-std::vector<GlassDropRecord> scatter(const FlatPane& pane, int count, double radius_m, double contact_rad,
-                                     uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(-0.12, 0.12);
-  std::vector<GlassDropRecord> drops;
-  for (int k = 0; k < count; ++k) {
-    drops.push_back(pane.cap(place(random), place(random), radius_m, contact_rad));
-    drops.back().seed = static_cast<uint32_t>(k) * 7919u + 1u;
-  }
-  return drops;
-}
-
-glm::vec3 checks(int x, int y) { return glm::vec3(static_cast<float>((x / 8 + y / 8) % 2)); }
-
-class Look : public GlTest {
- protected:
-  Scene inside(glm::ivec2 size_px) const {
-    Scene scene;
-    scene.size_px = size_px;
-    scene.view = forwardView(size_px, kFov);
-    return scene;
-  }
-  glass::GlassLook look{gl};
-};
 
 TEST_F(Look, cleanGlassPassesThePictureToTheBit) {
   FlatPane pane(gl, kRake, 0.8, 64);
@@ -257,86 +218,6 @@ TEST_F(Look, everyDepthConventionShowsTheSame) {
   EXPECT_EQ(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.0f);
 }
 
-// Something black in the picture's left half, bright sky all around; what wet glass makes of it.
-class NearThing : public Look {
- protected:
-  // Film that bends views by some 30 pixels to either side, drops, and the thing where `along_m(row)`
-  // of the view says.
-  Picture seenWith(bool reversed, double film_m, int drops, const std::function<double(int y)>& along_m) {
-    FlatPane pane(gl, kRake, 0.8, 64);
-    pane.putFilm([&](double u, double) { return film_m * (1.0 + std::sin(80.0 * u)); });
-    if (drops > 0) pane.putDrops(scatter(pane, drops, 3e-3, glm::radians(60.0), 8));
-    const gl::TextureCube white = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(1.0f); });
-    Scene scene = inside({320, 180});
-    scene.light.environment_cube = white.name();
-    scene.picture = paint(scene.size_px, [](int x, int) { return glm::vec3(x < 160 ? 0.0f : 1.0f); });
-    if (reversed) {
-      scene.view.clipFromEye[2] = glm::dvec4(0.0, 0.0, 0.0, -1.0);
-      scene.view.clipFromEye[3] = glm::dvec4(0.0, 0.0, 0.05, 0.0);
-      scene.view.clip_zero_to_one = scene.view.reversed_depth = true;
-    }
-    for (int y = 0; y < 180; ++y) {
-      const glm::dvec4 clip = scene.view.clipFromEye * glm::dvec4(0.0, 0.0, -along_m(y), 1.0);
-      const double ndc = clip.z / clip.w;
-      const auto thing = static_cast<float>(reversed ? ndc : 0.5 * ndc + 0.5);
-      for (int x = 0; x < 320; ++x) scene.depths.push_back(x < 160 ? thing : reversed ? 0.0f : 1.0f);
-    }
-    return draw(gl, look, scene, {&pane.pane, 1});
-  }
-  // A blade's plane `behind_m` off the glass.
-  static std::function<double(int)> blade(double behind_m) {
-    return [=](int y) {
-      const FlatPane::Axes axes(kRake);
-      const glm::dvec3 eye_m(-0.65, 0.0, 0.0);
-      // Where the pixels' rays, which all lean by the row alone, meet that plane.
-      const double rise = (y + 0.5 - 90.0) / 160.0 * std::tan(0.5 * kFov);
-      return (behind_m - glm::dot(eye_m, axes.outward)) / glm::dot(glm::dvec3(1.0, 0.0, rise), axes.outward);
-    };
-  }
-  // Mean light of the left half's middle strip, with drops and film in front of it.
-  double lightOfBlade(double behind_m, bool reversed) {
-    const Picture seen = seenWith(reversed, 2e-4, 1500, blade(behind_m));
-    double sum = 0.0;
-    for (int y = 60; y < 120; ++y) {
-      for (int x = 40; x < 150; ++x) sum += static_cast<double>(seen.at(x, y).x);
-    }
-    return sum / (60.0 * 110.0);
-  }
-  // The darkest that wavy film makes the right half, where the sky is.
-  static double darkestBeside(const Picture& seen) {
-    double least = 1.0;
-    for (int y = 60; y < 120; ++y) {
-      for (int x = 161; x < 300; ++x) least = std::min(least, static_cast<double>(seen.at(x, y).x));
-    }
-    return least;
-  }
-};
-
-// A pillar stands before the glass, a blade close behind it: neither is drawn into the view beside it. Steep
-// film reflects the cabin a little, which is dark by it.
-TEST_F(NearThing, pillarAndBladeHaveNoFringe) {
-  const auto pillar = [](int) { return 0.3; };
-  for (const bool reversed : {false, true}) {
-    EXPECT_GT(darkestBeside(seenWith(reversed, 2e-3, 0, pillar)), 0.95) << reversed;
-    EXPECT_GT(darkestBeside(seenWith(reversed, 2e-3, 0, blade(0.03))), 0.95) << reversed;
-  }
-}
-
-// ... but what stands far off is bent into it, as by any lens.
-TEST_F(NearThing, whatStandsFarOffIsSeenBent) {
-  EXPECT_LT(darkestBeside(seenWith(false, 2e-3, 0, blade(20.0))), 0.1);
-}
-
-TEST_F(NearThing, aBladeCloseBehindWetGlassStaysWholeInEveryDepthConvention) {
-  EXPECT_LT(lightOfBlade(0.03, false), 0.01);
-  EXPECT_LT(lightOfBlade(0.03, true), 0.01);
-}
-
-TEST_F(NearThing, whatStandsFartherOffIsLookedPastByDrops) {
-  EXPECT_GT(lightOfBlade(2.0, false), 0.2);
-  EXPECT_NEAR(lightOfBlade(2.0, true), lightOfBlade(2.0, false), 0.02);
-}
-
 TEST_F(Look, farFromTheWorldsOriginNothingTrembles) {
   FlatPane pane(gl, kRake, 0.8, 64);
   pane.putDrops(scatter(pane, 200, 2e-3, glm::radians(60.0), 5));
@@ -361,127 +242,6 @@ TEST_F(Look, mirroredUvsShowTheSameDrops) {
     return draw(gl, look, scene, {&pane.pane, 1});
   };
   EXPECT_LT(greatestDifference(seen(false), seen(true)), 0.02f);  // as far as texture coordinates round
-}
-
-double lightTaken(const Picture& with, const Picture& without) {
-  double sum = 0.0;
-  for (size_t k = 0; k < with.pixels.size(); ++k)
-    sum += std::abs(static_cast<double>(without.pixels[k].x - with.pixels[k].x));
-  return sum / static_cast<double>(with.pixels.size());
-}
-
-TEST_F(Look, dropsBelowAPixelCoverAsMuchAsTheyAre) {
-  // Against a white sky with nothing else in the world drops are dark, so what they take from the picture is
-  // their area.
-  FlatPane pane(gl, kRake, 0.8, 64);
-  std::vector<GlassDropRecord> drops = scatter(pane, 1500, 0.5e-3, glm::radians(60.0), 6);
-  for (GlassDropRecord& drop : drops) drop.seed = 0;
-  pane.putDrops(drops);
-  const gl::TextureCube black = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(0.0f); });
-  const auto taken = [&](glm::ivec2 size_px) {
-    Scene scene = inside(size_px);
-    scene.light.environment_cube = black.name();
-    scene.picture = paint(size_px, [](int, int) { return glm::vec3(1.0f); });
-    return lightTaken(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {}));
-  };
-  const double resolved = taken({1920, 1080});  // 2.8 pixels wide
-  ASSERT_GT(resolved, 0.002);
-  EXPECT_NEAR(taken({320, 180}) / resolved, 1.0, 0.25);  // a box a pixel wide stands for a disc
-  EXPECT_NEAR(taken({160, 90}) / resolved, 1.0, 0.25);
-}
-
-// Beads that are dark take as much light as they cover, whatever a pixel is; those too small to be seen one
-// by one blur and take none.
-TEST_F(Look, beadsCoverAsMuchAsTheyAre) {
-  FlatPane pane(gl, kRake, 0.8, 256);
-  const double share = 0.25;
-  const gl::TextureCube black = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(0.0f); });
-  const auto taken = [&](int number, glm::ivec2 size_px) {
-    pane.putBeads([&](double, double) { return number; }, share, glm::radians(25.0));
-    Scene scene = inside(size_px);
-    scene.light.environment_cube = black.name();
-    scene.picture = paint(size_px, [](int, int) { return glm::vec3(1.0f); });
-    return lightTaken(draw(gl, look, scene, {&pane.pane, 1}),
-                      draw(gl, look, scene, {}));  // the pane fills the picture
-  };
-  // A pair's sizes differ, and cells cut the largest: their share is less than that of equal ones by some per
-  // cent.
-  for (const int number : {1, 4}) EXPECT_NEAR(taken(number, {1920, 1080}) / share, 1.0, 0.12) << number;
-  EXPECT_NEAR(taken(1, {960, 540}) / share, 1.0, 0.12);
-  EXPECT_LT(taken(64, {160, 90}), 0.01);
-}
-
-// How dark the darkest hundredth of the pixels is.
-double darkestOf(Picture picture) {
-  const auto hundredth = picture.pixels.begin() + static_cast<std::ptrdiff_t>(picture.pixels.size() / 100);
-  std::nth_element(picture.pixels.begin(), hundredth, picture.pixels.end(),
-                   [](const glm::vec4& a, const glm::vec4& b) { return a.x < b.x; });
-  return static_cast<double>(hundredth->x);
-}
-
-// A bead's light is a short way to what is traced through a drop of its size and shape: in the mean over many
-// they show as much of a bright sky, a dim ground and a dark cabin, seen large or of about a pixel.
-TEST_F(Look, beadsShowInTheMeanWhatDropsOfTheirShapeDo) {
-  constexpr int kTexels = 100;
-  constexpr double kTexel_m = 3e-3, kCovered = 0.12;
-  const double contact_rad = glm::radians(30.0);
-  const gl::TextureCube sky =
-      makeCube(gl, 32, [](const glm::vec3& d) { return glm::vec3(d.z > 0.0f ? 1.0f : 0.2f); });
-  const double radius_m = kTexel_m * std::sqrt(kCovered / glm::pi<double>());
-  FlatPane beads(gl, kRake, kTexels * kTexel_m, kTexels), drops(gl, kRake, kTexels * kTexel_m, kTexels);
-  beads.putBeads([](double, double) { return 1; }, kCovered, contact_rad);
-  std::vector<GlassDropRecord> records;
-  for (int y = 2; y < kTexels - 2; ++y) {
-    for (int x = 2; x < kTexels - 2; ++x) {
-      const auto mean = static_cast<float>(radius_m / kTexel_m);
-      const shared::SeatedBead seat =
-          shared::seatedBead(static_cast<uint32_t>(y * kTexels + x), glm::ivec2(0), 1, mean);
-      const glm::dvec2 place(shared::gridPlace(glm::vec2(x, y) + seat.middle));
-      records.push_back(drops.cap((place.x / kTexels - 0.5) * kTexels * kTexel_m,
-                                  (place.y / kTexels - 0.5) * kTexels * kTexel_m, radius_m, contact_rad));
-    }
-  }
-  drops.putDrops(records);
-  for (const glm::ivec2 size_px : {glm::ivec2(1920, 1080), glm::ivec2(640, 360), glm::ivec2(480, 270)}) {
-    Scene scene = inside(size_px);
-    scene.view = forwardView(size_px, glm::radians(20.0));
-    scene.light.environment_cube = sky.name();
-    scene.picture = paint(size_px, [](int, int) { return glm::vec3(0.0f); });
-    const double bead_light = lightTaken(draw(gl, look, scene, {&beads.pane, 1}), draw(gl, look, scene, {})),
-                 drop_light = lightTaken(draw(gl, look, scene, {&drops.pane, 1}), draw(gl, look, scene, {}));
-    std::printf("%d: %g %g\n", size_px.x, bead_light, drop_light);
-    EXPECT_NEAR(bead_light / drop_light, 1.0, 0.12) << size_px.x;
-    scene.picture = paint(size_px, [](int, int) { return glm::vec3(1.0f); });
-    const double bead_specks = darkestOf(draw(gl, look, scene, {&beads.pane, 1})),
-                 drop_specks = darkestOf(draw(gl, look, scene, {&drops.pane, 1}));
-    std::printf("%d: %g %g\n", size_px.x, bead_specks, drop_specks);
-    EXPECT_GT(bead_specks, drop_specks - 0.1) << size_px.x;
-  }
-}
-
-// A lone bead shows the world upside down, as a drop does.
-TEST_F(Look, aBeadShowsTheSkyBelowAndTheGroundAbove) {
-  FlatPane pane(gl, glm::radians(90.0), 0.8, 64);
-  pane.putBeads([](double u, double v) { return std::abs(u) < 0.1 && std::abs(v) < 0.1 ? 1 : 0; }, 0.4,
-                glm::radians(60.0));
-  const gl::TextureCube sky =
-      makeCube(gl, 32, [](const glm::vec3& d) { return glm::vec3(d.z > 0.0f ? 1.0f : 0.0f); });
-  Scene scene = inside({1280, 720});
-  scene.light.environment_cube = sky.name();
-  scene.picture = paint(scene.size_px, [](int, int y) { return glm::vec3(y > 360 ? 1.0f : 0.0f); });
-  const Picture with = draw(gl, look, scene, {&pane.pane, 1}), without = draw(gl, look, scene, {});
-  int brighter_below = 0, darker_above = 0, other = 0;
-  for (int y = 0; y < 720; ++y) {
-    for (int x = 0; x < 1280; ++x) {
-      const float change = with.at(x, y).x - without.at(x, y).x;
-      if (std::abs(change) < 0.5f || std::abs(y - 360) < 3) continue;
-      (y > 360 ? darker_above : brighter_below) += 1;
-      other += (y > 360) == (change > 0.0f) ? 1 : 0;
-    }
-  }
-  EXPECT_GT(brighter_below, 5000);
-  EXPECT_GT(darker_above, 5000);
-  EXPECT_EQ(other, 0);
 }
 
 TEST_F(Look, aPaneSeenFromOutsideShowsTheSkyInItsDryGlass) {

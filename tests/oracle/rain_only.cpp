@@ -70,7 +70,7 @@ rg_result update(rg_instance* instance, int64_t time_ns, const rg_sample* in, ui
 
 const rg_api& rainOnlyApi() {
   static const rg_api api = [] {
-    rg_api a = *rgTable(RG_ABI_MAJOR);
+    rg_api a = *rgTable(RG_ABI_VERSION);
     a.create = create;
     a.destroy = destroy;
     a.last_error = lastError;

@@ -122,6 +122,34 @@ TEST_F(Window, pausesTakesPicturesAndClosesByItsFrame) {
   expectCleanEnd();
 }
 
+// Where F5 was, F9 goes back to, as often as asked; what cannot be is told, and takes nothing away.
+TEST_F(Window, savesTheMomentAndGoesBackToIt) {
+  open("--scenario parked");
+  ASSERT_TRUE(titleSays("0 km/h  "));
+  press("F9");
+  EXPECT_TRUE(titleSays("saved.run: there is no such file")) << title();
+  press("F5");
+  ASSERT_TRUE(titleSays("saved at")) << title();
+  const double saved_s = told("saved at ");
+  const auto driveOffAndGoBack = [&] {
+    display_->hold(window_, "Up", true);
+    EXPECT_TRUE(becomes([&] { return speedKmh() >= 5.0; })) << title();
+    display_->hold(window_, "Up", false);
+    press("F9");
+    EXPECT_TRUE(titleSays("back at")) << title();
+    EXPECT_EQ(told("back at "), saved_s);
+    EXPECT_EQ(speedKmh(), 0.0);
+  };
+  driveOffAndGoBack();
+
+  std::filesystem::create_directories(folder_ / "saved.run.part" / "in the way");
+  press("F5");
+  EXPECT_TRUE(titleSays("saved.run: cannot be written")) << title();
+  driveOffAndGoBack();
+  press("Escape");
+  expectCleanEnd();
+}
+
 TEST_F(Window, followsItsSize) {
   open("--scenario parked --seconds 600");
   ASSERT_NE(window_, 0U);

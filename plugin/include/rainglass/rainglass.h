@@ -5,7 +5,7 @@
  *
  * ORDER OF CALLS
  *
- *   api = rg_get_entry(RG_ABI_MAJOR)                         the one exported symbol
+ *   api = rg_get_entry(RG_ABI_VERSION)                       the one exported symbol
  *   api->create                                              any thread
  *   api->attach_gl                                           GL thread, context current
  *   api->set_volume, set_vehicle, set_pane, set_wiper ...    any time; stable ids of your choice, 0 is never an id
@@ -62,7 +62,9 @@ extern "C" {
 #endif
 
 #define RG_ABI_MAJOR 1u
-#define RG_ABI_MINOR 7u
+#define RG_ABI_MINOR 8u
+/* What this header's hosts pass to rg_get_entry. */
+#define RG_ABI_VERSION (RG_ABI_MAJOR << 16 | RG_ABI_MINOR)
 
 #if defined(__GNUC__)
 #define RG_EXPORT __attribute__((visibility("default")))
@@ -138,7 +140,7 @@ enum {
 /* Fixed. worldFromBody: where a body is and how it moves. Orientation must be of unit length within 1e-3. */
 typedef struct rg_pose {
   double position_m[3];
-  double orientation[4];            /* quaternion x, y, z, w */
+  double orientation[4];            /* quaternion x, y, z, w; default 0, 0, 0, 1 */
   double velocity_mps[3];           /* of the body's origin, world axes */
   double angular_velocity_radps[3]; /* world axes */
 } rg_pose;
@@ -177,10 +179,12 @@ typedef struct rg_weather {
 /* One eye's picture. The same struct tells update which volumes will be looked into and draw what to draw. */
 typedef struct rg_view {
   uint32_t struct_size;
-  uint32_t id;                /* > 0 */
+  uint32_t id;                /* > 0; default 1 */
   int32_t viewport_px[4];     /* x, y, width, height in the target */
-  double eye_from_world[16];  /* column-major, rigid (no scale); world positions may be large */
-  double projection[16];      /* clipFromEye, column-major; may be asymmetric, reversed, infinite */
+  double eye_from_world[16];  /* column-major, rigid (no scale); world positions may be large; default:
+                                 identity */
+  double projection[16];      /* clipFromEye, column-major; may be asymmetric, reversed, infinite; default:
+                                 identity, which is refused: set it */
   uint32_t clip_zero_to_one;  /* 1: glClipControl depth mode ZERO_TO_ONE in use for this target's depth */
   uint32_t reversed_depth;    /* 1: nearer is greater (depth test GREATER) */
   double jitter_px[2];        /* sub-pixel jitter already in `projection`; default 0 */
@@ -216,10 +220,10 @@ typedef struct rg_sample {
   int64_t time_ns;
   const rg_weather* weather;  /* null: as in the sample before */
   const rg_vehicle* vehicles; /* vehicles that are not listed stand still */
-  size_t vehicle_stride;
+  size_t vehicle_stride;      /* default sizeof(rg_vehicle) */
   const rg_view* views; /* every channel's view: the near part of their frusta is filled with rain; null: as
                            in the sample before */
-  size_t view_stride;
+  size_t view_stride;   /* default sizeof(rg_view) */
   uint32_t view_count;
   uint32_t wiper_knot_count;
   const rg_wiper_knot* wiper_knots; /* ascending in time for each wiper, not after time_ns */
@@ -245,7 +249,7 @@ typedef struct rg_volume_info {
   uint32_t reserved;
 } rg_volume_info;
 
-/* What a pane's surface does to water; default_pane fills in RG_GLASS_UNCOATED. */
+/* What a pane's surface does to water; default_pane_info fills in RG_GLASS_UNCOATED. */
 typedef enum rg_glass {
   RG_GLASS_UNCOATED = 0,
   RG_GLASS_DIRTY = 1,
@@ -303,10 +307,10 @@ typedef struct rg_wiper_info {
   uint32_t pane; /* the pane it wipes */
   const char* name;
   double pivot_m[3];        /* vehicle frame */
-  double axis[3];           /* unit, out of the glass */
-  double rest_direction[3]; /* unit, across axis: where the arm points at angle 0 */
-  double arm_m;             /* pivot to the blade's middle */
-  double blade_m;           /* blade's length */
+  double axis[3];           /* unit, out of the glass; default 0, 0, 1 */
+  double rest_direction[3]; /* unit, across axis: where the arm points at angle 0; default 1, 0, 0 */
+  double arm_m;             /* pivot to the blade's middle, 0.01 .. 5; default 0.5 */
+  double blade_m;           /* blade's length, 0.01 .. 5; default 0.6 */
   double blade_angle_rad;   /* from the arm's direction to the blade's */
   double residual_film_m;   /* what a pass leaves; 0 .. 1e-4; default 1e-7 */
   /* Since minor 2. */
@@ -327,7 +331,7 @@ typedef struct rg_wash_info {
   double duration_s;   /* 0.01 .. 60; default 1 */
   double volume_m3;    /* that leaves the nozzle, evenly over that time; 0 .. 1e-3; default 2e-5 (20 mL) */
   double nozzle_m[3];  /* vehicle frame */
-  double direction[3]; /* unit, vehicle frame; a jet is so fast that it goes straight */
+  double direction[3]; /* unit, vehicle frame; a jet is so fast that it goes straight; default 1, 0, 0 */
   double fan_rad;      /* whole angle of its cone, 0.01 .. 3; default 0.2 */
 } rg_wash_info;
 
@@ -363,9 +367,9 @@ typedef struct rg_target {
                              tested, streaks end hard */
   int32_t width_px;
   int32_t height_px;
-  int32_t samples;     /* 1; more: missing feature in this build */
+  int32_t samples;     /* 1 (default); more: missing feature in this build */
   int32_t layer;       /* 0 */
-  int32_t color_space; /* rg_color_space of what is in the target now: RG_LINEAR_HDR = linear radiance */
+  int32_t color_space; /* rg_color_space of what is in it now: RG_LINEAR_HDR (default) = linear radiance */
   uint32_t reserved;
   double exposure; /* what radiance was multiplied with before it was written; default 1 */
 } rg_target;
@@ -383,8 +387,8 @@ typedef struct rg_lamp {
 typedef struct rg_lighting {
   uint32_t struct_size;
   uint32_t lamp_count;
-  float sky_radiance[3];    /* mean of the upper hemisphere */
-  float ground_radiance[3]; /* mean of the lower */
+  float sky_radiance[3];    /* mean of the upper hemisphere; default 1 */
+  float ground_radiance[3]; /* mean of the lower; default 0.2 */
   float sun_direction[3];   /* towards the sun, unit, or 0 */
   float sun_irradiance[3];
   const rg_lamp* lamps;
@@ -407,7 +411,7 @@ typedef struct rg_draw {
                       it */
   const rg_view* view;
   const rg_target* target;
-  const rg_lighting* lighting;
+  const rg_lighting* lighting; /* null: as default_lighting fills it in */
 } rg_draw;
 
 /* Scene and sky behind the glass as seen wide from `eye_from_world`: no rain, no panes, no cabin. Called
@@ -472,7 +476,7 @@ typedef struct rg_pane_stats {
   double ridge_ml;     /* of on_glass: carried by blades */
   /* Since minor 3. */
   double dropped_s; /* time that was left out for this pane since it was made or reset: of stalls longer than
-                       time.catch_up_s, and while step_gpu did not come for more than 4 s */
+                       time.catch_up_s, and while step_gpu did not come for more than 5 s */
   /* Since minor 7. */
   double run_on_ml; /* of caught: ran or was thrown off other panes of its vehicle and came round the pillar (glass.run_off) */
 } rg_pane_stats;
@@ -527,10 +531,11 @@ typedef struct rg_rain_pattern {
 
 typedef struct rg_api {
   uint32_t struct_size;
-  uint32_t abi_minor;
+  uint32_t abi_minor;  /* of the plugin */
   const char* version; /* of the plugin, static */
 
-  /* Defaults: fill in *out wholly, struct_size included; null does nothing. [thread: any] */
+  /* Defaults: fill in *out wholly, struct_size included: what tells no default is 0. Null does nothing.
+   * [thread: any] */
   void (*default_create_info)(rg_create_info* out);
   void (*default_gl_info)(rg_gl_info* out);
   void (*default_vehicle)(rg_vehicle* out);
@@ -666,9 +671,15 @@ typedef struct rg_api {
   rg_result (*set_airflow)(rg_instance* instance, uint32_t pane, const rg_airflow* airflow);
 } rg_api;
 
-/* The table for this ABI major, or null when this library does not speak it. Static: never freed. [thread:
- * any] */
-RG_EXPORT const rg_api* rg_get_entry(uint32_t abi_major);
+/* The table of functions for hosts of a version of this header: pass RG_ABI_VERSION. Null when this library
+ * does not speak its major. Its default_* functions fill in structs as that version has them and write
+ * nothing behind, however much they have grown since. Of a version newer than the library they fill in what
+ * the library knows, which is all it reads.
+ *
+ * A bare RG_ABI_MAJOR, as hosts of minors 0 to 7 pass it, tells no minor and is taken for minor 0. What came
+ * since then is as by default to such a host, until it fills in all of it and sets struct_size to sizeof.
+ * Static: never freed. [thread: any] */
+RG_EXPORT const rg_api* rg_get_entry(uint32_t abi_version);
 
 #ifdef __cplusplus
 }

@@ -16,10 +16,11 @@
 namespace rg::glass {
 namespace {
 
-constexpr uint32_t kWashStream = 1000;        // beyond the rain's size classes
-constexpr uint32_t kRoundSeed = 0;            // the look draws it with a round outline
-constexpr size_t kMostWaiting = 4 * kTickHz;  // ticks; more is a stall
-constexpr size_t kMostStripped = 2048;        // texels in a film step; the rest in the next
+constexpr uint32_t kWashStream = 1000;  // beyond the rain's size classes
+constexpr uint32_t kRoundSeed = 0;      // the look draws it with a round outline
+// Ticks: the longest stall that is caught up with, and what was under way before it.
+constexpr size_t kMostWaiting = (kLongestCatchUp_s + 1) * kTickHz;
+constexpr size_t kMostStripped = 2048;  // texels in a film step; the rest in the next
 
 Surface surfaceFor(const PaneInfo& info) {
   Surface surface = surfaceOf(info.glass);

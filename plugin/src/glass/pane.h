@@ -141,8 +141,7 @@ struct PaneStats {
   int64_t on_glass_pl = 0;  // film + beads + drops + ridge + what travels between CPU and GPU, summed afresh
   int64_t drained_pl = 0, wiped_pl = 0, blown_pl = 0, evaporated_pl = 0;
   int64_t film_pl = 0, beads_pl = 0, drops_pl = 0, ridge_pl = 0, travelling_pl = 0;
-  uint64_t dropped_ticks =
-      0;  // ticks not run because the GPU's part was not called for more than four seconds
+  uint64_t dropped_ticks = 0;  // not run: the GPU's part was not called for more than five seconds
 };
 
 // A blade on its way with a ridge before it.
