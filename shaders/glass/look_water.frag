@@ -11,12 +11,8 @@ in OverTile {
 } i;
 
 layout(location = 0) out vec4 slope_thickness;  // xyz: gradient of the thickness along the glass, vehicle frame; w: thickness, um
-// x: number of beads, and half the share in which each is seen by itself; y, z: the mean bead's radius in texels; w: share of the glass that is
-// covered by those too small to be seen one by one.
+// x: number of beads; y, z: the mean one's radius in texels; w: share of the glass that is covered by them where they are too small to be seen one by one.
 layout(location = 1) out vec4 lying_beads;
-
-// Radius in pixels from which a bead is more and more seen by itself, and wholly.
-const float kHazy_px = 0.35, kWhole_px = 0.8;
 
 // Thickness in um by that of a unit of volume; past the pane's edge as at `inner_um`.
 float thickness_um(ivec2 texel, float inner_um, float unit) {
@@ -48,7 +44,7 @@ vec4 beadsAt(ivec2 texel, vec4 metric) {
   float radius_m = lying.number == 0 ? 0.0 : 1e-3 * beadRadius_mm(lying, frame.bead_mm3_per_unit);
   float whole = smoothstep(kHazy_px, kWhole_px, radius_m / i.pixel_m);
   float covered = min(float(lying.number) * 3.14159 * radius_m * radius_m / max(metric.w, 1e-12), 1.0);
-  return vec4(float(lying.number) + 0.5 * whole, radius_m / max(metric.xy, vec2(1e-6)), covered * (1.0 - whole));
+  return vec4(float(lying.number), radius_m / max(metric.xy, vec2(1e-6)), covered * (1.0 - whole));
 }
 
 void main() {

@@ -24,6 +24,9 @@ RG_FN Beads beadsOf(uint code) {
 RG_FN Beads noBeads() { return beadsOf(0u); }
 RG_FN uint packedBeads(RG_IN(Beads) beads) { return uint(beads.volume_pl) | (uint(beads.number) << 24u); }
 
+// Base radius of the largest: what is larger wind and weight may move, and so it is a drop.
+RG_CONST float kMostBead_m = 1.1e-3f;
+
 // Share of the glass that beads cover before they touch and run together: with more there is no room between (rain on a pane, by eye; drops of
 // one size that lie anywhere jam at 0.55).
 RG_CONST float kCrowded = 0.4f;
@@ -54,13 +57,22 @@ RG_FN float beadsCovering(int volume_pl, float share, float mm3_per_pl, float pe
   return covered_mm2 * covered_mm2 * covered_mm2 / (base_mm3 * base_mm3);
 }
 
+// Of how many equal beads the water of two kinds is, so that a picolitre finds itself in a bead as large as before in the mean: as many as both where
+// they are alike; but a large drop's water is not shared out among the mist that it falls into. With p the second's share of the volume, 1 / number is
+// p^2 / number_b + (1 - p)^2 / number_a. In whole 256ths, which divide alike everywhere.
+RG_FN int numberOfBoth(RG_IN(Beads) a, int b_pl, int b_number) {
+  uint p = (uint(b_pl) << 8u) / uint(max(a.volume_pl + b_pl, 1)), rest = 256u - p;
+  uint n = uint(max(a.number, 1)), m = uint(b_number), parts = p * p * n + rest * rest * m;
+  return a.number == 0 ? min(b_number, kMostBeads) : clamp(int((((n * m) << 16u) + parts / 2u) / parts), 1, kMostBeads);
+}
+
 // As they come to others. What is too much for the store goes to the film.
 RG_FN Beads joinedBy(RG_IN(Beads) beads, int volume_pl, int number, RG_INOUT(int) film_pl) {
   int kept_pl = min(volume_pl, kMostBeads_pl - beads.volume_pl);
   film_pl += volume_pl - kept_pl;
   Beads both;
   both.volume_pl = beads.volume_pl + kept_pl;
-  both.number = min(beads.number + (kept_pl > 0 ? max(number, 1) : 0), kMostBeads);
+  both.number = kept_pl > 0 ? numberOfBoth(beads, kept_pl, max(number, 1)) : beads.number;
   return both;
 }
 
@@ -73,20 +85,31 @@ RG_FN Beads withoutPart(RG_IN(Beads) beads, int taken_pl) {
   return rest;
 }
 
-// A film breaks at holes; between them it gathers into ridges, half cylinders of radius a that pinch off every nine radii (Rayleigh & Plateau's
-// fastest wave, 2 pi sqrt(2) a = 8.9 a). Holes a distance s apart, in squares: a ridge of length 2 s for each s^2, so pi a^2 / 2 = h s / 2.
+// A film breaks at holes; between them it gathers into ridges, which meet the glass at its contact angle and pinch off into beads. Their fastest wave is
+// some 4 times as long as they are wide: sqrt(2) times the longest that dies, 3.7 times the width of a flat ridge, 4.4 of a half cylinder (Davis
+// 1980, J. Fluid Mech. 98; lines that move freely). Holes a distance s apart, in squares: a ridge of length 2 s and of a cross section h s / 2 for each
+// s^2. `by_ridge`: see ridgeBeads.
 // A hole opens only where a speck is wider than the film's rim would close over, some tenths of a millimetre for films of 20 um on glass that
 // water leaves at 10 degrees: such specks lie millimetres apart, and unevenly (by eye).
 RG_CONST float kHoles_m = 4.0e-3f;  // (unsourced)
-RG_FN int beadsOfBrokenFilm(float h_m, uint place, float per_m2) {
+RG_FN int beadsOfBrokenFilm(float h_m, uint place, float per_m2, float by_ridge) {
   float u = unitFloat(pcg(place + 0x51ed270bu));
   float holes_m = kHoles_m * (0.5f + 1.5f * u * u);
-  float ridge_m = sqrt(h_m * holes_m / 3.1415927f);
-  float number = 2.0f / (9.0f * holes_m * ridge_m * per_m2);
+  float number = by_ridge / (holes_m * sqrt(h_m * holes_m) * per_m2);
   return int(min(max(number + unitFloat(pcg(place + 0x2545f491u)), 1.0f), float(kMostBeads)));
 }
 
+// Of ridges w wide, a cross section of q w^2 = h s / 2: 2 s / (4 w) on an area of s^2 is ridgeBeads / (s sqrt(h s)).
+RG_FN float ridgeBeads(float contact_rad) {
+  float s = sin(contact_rad), q = (contact_rad - s * cos(contact_rad)) / (4.0f * s * s);
+  return 0.5f * sqrt(2.0f * q);
+}
+
 // --- where they lie, in texels ---
+
+// Radius in pixels from which a bead is more and more seen by itself, and wholly.
+RG_CONST float kHazy_px = 0.35f;
+RG_CONST float kWhole_px = 0.8f;
 
 // The look's texels are bent a little, so that nobody sees rows: a place p of the grid shows what is in the texel of beadPlace(p).
 RG_FN vec2 beadPlace(vec2 p) {
@@ -99,68 +122,54 @@ RG_FN vec2 gridPlace(vec2 bead_place) {
   return p;
 }
 
-// Each texel is cut into cells x cells, at least 2 x 2, one bead in each or none: into rows, and each row by itself, at places of its own, so that beads
-// that crowd do not stand in line. Not so 2 x 2, where a lone one finds its seat, too. Lines: rows' are kBeadRows, those in a row are its number.
-RG_CONST float kUnevenCells = 0.25f; // at most: of a cell's width, either way (by eye)
-RG_CONST int kBeadRows = 8;
-RG_FN int beadCells(int number) { return max(int(ceil(sqrt(float(number)) - 1.0e-4f)), 2); }
-// What beads of this mean radius, in texels, leave for cells to differ, all but the largest being whole.
-RG_FN float unevenCells(int cells, float mean) { return cells > 2 ? clamp(0.5f - 1.1f * mean * float(cells), 0.0f, kUnevenCells) : 0.0f; }
-RG_FN float beadEdge(uint texel, int line, int k, int cells, float uneven) {
-  float u = unitFloat(pcg(pcg(texel ^ 0x68e31da4u) + uint(line * 16 + k)));
-  return k <= 0 ? 0.0f : k >= cells ? 1.0f : (float(k) + uneven * (2.0f * u - 1.0f)) / float(cells);
-}
-RG_FN int beadCellAlong(uint texel, int line, float place, int cells, float uneven) {
-  int k = min(int(place * float(cells)), cells - 1);
-  return k + (place >= beadEdge(texel, line, k + 1, cells, uneven) ? 1 : 0) - (place < beadEdge(texel, line, k, cells, uneven) ? 1 : 0);
-}
-// Of `number` beads.
-RG_FN ivec2 beadCellAt(uint texel, vec2 in_texel, int number, float mean) {
-  int cells = beadCells(number);
-  float uneven = unevenCells(cells, mean);
-  int row = beadCellAlong(texel, kBeadRows, in_texel.y, cells, uneven);
-  return ivec2(beadCellAlong(texel, row, in_texel.x, cells, uneven), row);
-}
-RG_FN vec2 beadCorner(uint texel, ivec2 cell, int number, float mean) {
-  int cells = beadCells(number);
-  float uneven = unevenCells(cells, mean);
-  return vec2(beadEdge(texel, cell.y, cell.x, cells, uneven), beadEdge(texel, kBeadRows, cell.y, cells, uneven));
-}
-// The corner across from that.
-RG_FN vec2 beadOpposite(uint texel, ivec2 cell, int number, float mean) {
-  int cells = beadCells(number);
-  float uneven = unevenCells(cells, mean);
-  return vec2(beadEdge(texel, cell.y, cell.x + 1, cells, uneven), beadEdge(texel, kBeadRows, cell.y + 1, cells, uneven));
-}
+// A texel is cut in two, across its longer side or nearly so, its parts again, and so on, until each holds one bead: unevenly and by chance, and a part's
+// beads are fewer or more than its share of the area. So no rows are seen, and beads differ as those do that uneven ridges pinch off: their diameters'
+// law is gamma's of order 4 to 10 (Villermaux, Marmottant & Duplat 2004, Phys. Rev. Lett. 92, 074501), which here follows from volumes that go as
+// the squares of areas. One more bead parts one of those there are, or two; others stay where they are.
+RG_CONST float kLeastPart = 0.3f;    // of what is cut (by eye)
+RG_CONST float kUnevenParts = 0.2f;  // by how much a part's share of the beads is another than of the area, at most (by eye)
 
 struct SeatedBead {
   vec2 middle; // in the texel, 0 .. 1
-  float size;  // of its radius to the mean bead's; 0: the cell is empty
+  float size;  // of its radius to the mean bead's; 0: there is none
+  vec2 low;    // its part of the texel
+  vec2 high;
 };
 
-// The bead of a cell. `mean`: the mean bead's radius in texels. Beads of a pair differ, their volumes' sum does not. A lone one has the texel to
-// itself, but sits where it sits when others come; it is found from every cell.
-RG_FN SeatedBead seatedBead(uint texel, ivec2 seen_cell, int number, float mean) {
+// The bead in whose part a place of a texel lies. `mean`: the mean bead's radius in texels.
+RG_FN SeatedBead seatedBead(uint texel, vec2 place, int number, float mean) {
   SeatedBead bead;
-  int cells = beadCells(number);
-  uint h = pcg(texel * 7u + 0x9e3779b9u), turn = h >> 8u;
-  // 11 and 13 share no factor with any number of cells up to 8 x 8, so that ranks are a permutation; of four cells each is its own inverse.
-  uint step = (h & 1u) != 0u ? 11u : 13u, number_of_cells = uint(cells * cells);
-  uint first = ((4u - turn % 4u) * step) % 4u;
-  ivec2 cell = number == 1 ? ivec2(int(first) % 2, int(first) / 2) : seen_cell;
-  int rank = int((uint(cell.y * cells + cell.x) * step + turn) % number_of_cells);
-  uint pair = pcg(h ^ (uint(rank) >> 1u));
-  float even = 1.0f - unitFloat(pair);
-  float differ = (rank ^ 1) < number ? 0.95f * (1.0f - even * even) : 0.0f;
-  float volume = 1.0f + ((rank & 1) != 0 ? differ : -differ);
-  vec2 corner = beadCorner(texel, cell, number, mean), width = beadOpposite(texel, cell, number, mean) - corner;
-  vec2 room = number == 1 ? vec2(1.0f, 1.0f) : width;
-  float radius = min(mean * pow(volume, 1.0f / 3.0f), 0.5f * min(room.x, room.y));
-  uint g = pcg(pair + uint(rank) + 17u);
-  vec2 own = corner + vec2(unitFloat(g), unitFloat(pcg(g))) * width;
-  vec2 low = number == 1 ? vec2(0.0f, 0.0f) : corner;
-  bead.middle = clamp(own, low + vec2(radius, radius), low + room - vec2(radius, radius));
-  bead.size = rank < number && mean > 0.0f ? radius / mean : 0.0f;
+  bead.low = vec2(0.0f, 0.0f);
+  bead.high = vec2(1.0f, 1.0f);
+  uint h = pcg(texel * 7u + 0x9e3779b9u);
+  // A lone bead's place: that of one of them, too, when others come.
+  vec2 first_place = vec2(unitFloat(h), unitFloat(pcg(h)));
+  float volume = float(number);
+  int here = number;
+  while (here > 1) {
+    h = pcg(h);
+    vec2 size = bead.high - bead.low;
+    bool along_x = size.x * ((h & 1u) != 0u ? 1.08f : 1.0f / 1.08f) > size.y;
+    float share = mix(kLeastPart, 1.0f - kLeastPart, unitFloat(h << 8u));
+    float share_of_beads = share + kUnevenParts * (2.0f * unitFloat(h << 16u) - 1.0f);
+    int lower = clamp(int(float(here) * share_of_beads + unitFloat(h)), 1, here - 1), upper = here - lower;
+    float rest = 1.0f - share, odds = share * share * float(upper), against = rest * rest * float(lower);
+    vec2 cut = bead.low + size * share;
+    bool beyond = along_x ? place.x >= cut.x : place.y >= cut.y;
+    volume *= (beyond ? against : odds) / (odds + against);
+    here = beyond ? upper : lower;
+    h += beyond ? 0x2545f491u : 0u;
+    bead.low = beyond ? vec2(along_x ? cut.x : bead.low.x, along_x ? bead.low.y : cut.y) : bead.low;
+    bead.high = beyond ? bead.high : vec2(along_x ? cut.x : bead.high.x, along_x ? bead.high.y : cut.y);
+  }
+  vec2 room = bead.high - bead.low;
+  float radius = min(mean * pow(max(volume, 1e-6f), 1.0f / 3.0f), 0.5f * min(room.x, room.y));
+  bool firsts = first_place.x >= bead.low.x && first_place.y >= bead.low.y && first_place.x < bead.high.x && first_place.y < bead.high.y;
+  h = pcg(h + 17u);
+  vec2 own = firsts ? first_place : bead.low + room * vec2(unitFloat(h), unitFloat(pcg(h)));
+  vec2 half_room = max(room * 0.5f - vec2(radius, radius), vec2(0.0f, 0.0f)), centre = (bead.low + bead.high) * 0.5f;
+  bead.middle = clamp(own, centre - half_room, centre + half_room);
+  bead.size = number > 0 && mean > 0.0f ? radius / mean : 0.0f;
   return bead;
 }
 

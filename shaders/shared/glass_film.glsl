@@ -35,8 +35,8 @@ struct FilmStepInfo {
   float weight_pl_m4;
   float heavy_m3;
   float tense_m3;
-  float unused_0;
-  float unused_1;
+  float bead_by_ridge; // see ridgeBeads
+  int most_bead_pl;    // a larger one is a drop
 };
 RG_SIZE(FilmStepInfo, 80)
 
@@ -269,13 +269,16 @@ RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) m
   t.gone_pl = film_dried_pl + beads_dried_pl;
   float h_m = thickness_m(t.film_pl, metric);
   int surplus_pl = 0;
-  Beads more = joinedBy(t.beads, t.film_pl, beadsOfBrokenFilm(h_m, texel ^ info.pane, metric.z), surplus_pl);
-  float room = beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z);
-  // Not where they would be too large at once: what dries is left as settled() leaves it, and may sleep on.
-  bool breaks = breaksUp(h_m, texel, info) && room >= 1.0f;
+  // Beads that lie there are where its ridges end.
+  int new_ones = max(beadsOfBrokenFilm(h_m, texel ^ info.pane, metric.z, info.bead_by_ridge) - t.beads.number, 1);
+  Beads more = joinedBy(t.beads, t.film_pl, new_ones, surplus_pl);
+  // None of them too large at once: what dries is left as settled() leaves it, and may sleep on.
+  int most_pl = max(info.most_bead_pl, 1), least = (more.volume_pl + most_pl - 1) / most_pl;
+  int number = int(min(float(max(more.number, least)), beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z)));
+  bool breaks = breaksUp(h_m, texel, info) && number >= max(least, 1);
   t.film_pl = breaks ? surplus_pl : t.film_pl;
   t.beads.volume_pl = breaks ? more.volume_pl : t.beads.volume_pl;
-  t.beads.number = breaks ? int(min(float(more.number), room)) : t.beads.number;
+  t.beads.number = breaks ? number : t.beads.number;
   return t;
 }
 
@@ -293,9 +296,9 @@ RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, RG_IN(vec4) metric, RG_
   t.beads.number = joins ? 0 : number;
   float h_m = thickness_m(t.film_pl, metric);
   int too_much_pl = t.film_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
-  bool overfull = h_m > kOverfull_m, too_large = alone && t.beads.number > 0;
+  bool overfull = h_m > kOverfull_m, too_large = t.beads.number > 0 && (alone || t.beads.volume_pl > t.beads.number * info.most_bead_pl);
   t.stirs = int(too_large || h_m >= info.pin_m);
-  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? too_much_pl : too_large ? t.beads.volume_pl : 0;
+  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? too_much_pl : too_large ? t.beads.volume_pl / max(t.beads.number, 1) : 0;
   return t;
 }
 // ... and after its tile's offer has gone to the drops.

@@ -38,6 +38,22 @@ TEST_F(Look, dropsBelowAPixelCoverAsMuchAsTheyAre) {
   EXPECT_NEAR(taken({160, 90}) / resolved, 1.0, 0.25);
 }
 
+// Share of a texel that its beads cover, of equal ones' share: sizes differ, and what is large covers less
+// than as much water in small ones.
+double coverOf(int number, double share) {
+  const auto mean = static_cast<float>(std::sqrt(share / (glm::pi<double>() * number)));
+  int covered = 0, places = 0;
+  for (uint32_t texel = 0; texel < 300; ++texel) {
+    for (int k = 0; k < 400; ++k, ++places) {
+      const glm::vec2 place((static_cast<float>(k % 20) + 0.5f) / 20.0f,
+                            (static_cast<float>(k / 20) + 0.5f) / 20.0f);
+      const shared::SeatedBead bead = shared::seatedBead(texel, place, number, mean);
+      covered += glm::distance(place, bead.middle) < bead.size * mean ? 1 : 0;
+    }
+  }
+  return covered / share / places;
+}
+
 // Beads that are dark take as much light as they cover, whatever a pixel is; those too small to be seen one
 // by one blur and take none.
 TEST_F(Look, beadsCoverAsMuchAsTheyAre) {
@@ -52,9 +68,10 @@ TEST_F(Look, beadsCoverAsMuchAsTheyAre) {
     return lightTaken(draw(gl, look, scene, {&pane.pane, 1}),
                       draw(gl, look, scene, {}));  // the pane fills the picture
   };
-  // A pair's sizes differ, and cells cut the largest: their share is less than that of equal ones by some per
-  // cent.
-  for (const int number : {1, 4}) EXPECT_NEAR(taken(number, {1920, 1080}) / share, 1.0, 0.12) << number;
+  for (const int number : {1, 4}) {
+    const double seen = taken(number, {1920, 1080}) / share, law = coverOf(number, share);
+    EXPECT_NEAR(seen / law, 1.0, 0.1) << number;  // of the smallest a part is a blur; parts cut faded edges
+  }
   EXPECT_NEAR(taken(1, {960, 540}) / share, 1.0, 0.12);
   EXPECT_LT(taken(64, {160, 90}), 0.01);
 }
@@ -83,7 +100,7 @@ TEST_F(Look, beadsShowInTheMeanWhatDropsOfTheirShapeDo) {
     for (int x = 2; x < kTexels - 2; ++x) {
       const auto mean = static_cast<float>(radius_m / kTexel_m);
       const shared::SeatedBead seat =
-          shared::seatedBead(static_cast<uint32_t>(y * kTexels + x), glm::ivec2(0), 1, mean);
+          shared::seatedBead(static_cast<uint32_t>(y * kTexels + x), glm::vec2(0.0f), 1, mean);
       const glm::dvec2 place(shared::gridPlace(glm::vec2(x, y) + seat.middle));
       records.push_back(drops.cap((place.x / kTexels - 0.5) * kTexels * kTexel_m,
                                   (place.y / kTexels - 0.5) * kTexels * kTexel_m, radius_m, contact_rad));
@@ -125,8 +142,8 @@ TEST_F(Look, aBeadShowsTheSkyBelowAndTheGroundAbove) {
       other += (y > 360) == (change > 0.0f) ? 1 : 0;
     }
   }
-  EXPECT_GT(brighter_below, 5000);
-  EXPECT_GT(darker_above, 5000);
+  EXPECT_GT(brighter_below, 4500);
+  EXPECT_GT(darker_above, 4500);
   EXPECT_EQ(other, 0);
 }
 

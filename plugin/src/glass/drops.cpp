@@ -269,7 +269,8 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
 }
 
 double Drops::largestBead_m3(double texel_m2) const {
-  return shape_mean_ * std::pow(static_cast<double>(shared::kCrowded) * texel_m2 / std::numbers::pi, 1.5);
+  const double radius_m = std::sqrt(static_cast<double>(shared::kCrowded) * texel_m2 / std::numbers::pi);
+  return shape_mean_ * std::pow(std::min(radius_m, static_cast<double>(shared::kMostBead_m)), 3.0);
 }
 
 // A volume that a texel holds as a lone bead does not become a drop, where there is a film to hold it.

@@ -2,10 +2,12 @@
 // ticks), and the report of it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "glass/water.h"
 #include "shared/glass_film.glsl"
 
 namespace rg::glass {
@@ -59,6 +61,15 @@ struct ThrownOff {
   int volume_pl = 0;
   bool operator==(const ThrownOff&) const = default;
 };
+
+// What beads' shape says: caps of this contact angle.
+inline void setBeadShape(shared::FilmStepInfo& info, double contact_rad) {
+  const double shape = capShape(contact_rad);
+  info.bead_mm3_per_pl = static_cast<float>(1e-6 / shape);
+  info.most_bead_pl =
+      static_cast<int>(picolitres(std::pow(static_cast<double>(shared::kMostBead_m), 3.0) * shape));
+  info.bead_by_ridge = shared::ridgeBeads(static_cast<float>(contact_rad));
+}
 
 struct FilmReport {
   int64_t step = 0;

@@ -44,7 +44,7 @@ double filmEvaporation_mps(double humidity, double saturated_kg_m3, double air_m
 
 // Where the look shows a texel's lone bead: there it goes on as a drop.
 glm::dvec2 beadPlace(const PaneMap& map, int texel, double radius_m) {
-  const shared::SeatedBead bead = shared::seatedBead(static_cast<uint32_t>(texel), glm::ivec2(0), 1,
+  const shared::SeatedBead bead = shared::seatedBead(static_cast<uint32_t>(texel), glm::vec2(0.0f), 1,
                                                      static_cast<float>(radius_m / map.grid().texel_m));
   const glm::vec2 corner(texel % map.grid().size.x, texel / map.grid().size.x);
   const glm::dvec2 place = glm::dvec2(shared::gridPlace(corner + bead.middle)) * map.grid().texel_m;
@@ -213,7 +213,7 @@ void PaneSim::State::closeFilmStep() {
                air_mps = 0.5 * glm::length(now.air_mps);
   info.evaporation_mps = static_cast<float>(filmEvaporation_mps(now.humidity, saturated_kg_m3, air_mps));
   const double angle = meanAngle(surface);
-  info.bead_mm3_per_pl = static_cast<float>(1e-6 / capShape(angle));
+  setBeadShape(info, angle);
   info.bead_drying_pl_mm = static_cast<float>(
       evaporation_kg_s(1e-3, angle, std::min(now.humidity, 1.0), saturated_kg_m3) / kRho_kg_m3 *
       kPicolitresPerM3 * shared::kDryingSteps * kTicksPerFilmStep * kTickSeconds);
