@@ -18,7 +18,13 @@ namespace {
 constexpr uint32_t kMostLamps = 4096;
 
 // Numbers of log messages: the negated result code for refused calls, from 100 on for remarks.
-enum : uint32_t { kLogThinned = 101, kLogTimeDropped = 102, kLogAttached = 103, kLogNearVolumes = 104 };
+enum : uint32_t {
+  kLogThinned = 101,
+  kLogTimeDropped = 102,
+  kLogAttached = 103,
+  kLogNearVolumes = 104,
+  kLogBareMajor = 105
+};
 glm::vec3 radiance(const float v[3], const char* name) {
   for (int i = 0; i < 3; ++i) checkRange(static_cast<double>(v[i]), 0.0, 1e9, name);
   return {v[0], v[1], v[2]};
@@ -42,6 +48,18 @@ rg_result create(const rg_create_info* in, rg_instance** out) {
   } catch (...) {
     return failed(nullptr, RG_ERROR_INTERNAL, "unknown failure");
   }
+}
+
+// For hosts that pass the bare major: whoever was compiled against a later minor than 0 is told what it
+// lacks.
+rg_result createForBareMajor(const rg_create_info* in, rg_instance** out) {
+  const rg_result result = create(in, out);
+  if (result == RG_OK)
+    say(**out, RG_LOG_WARNING, kLogBareMajor,
+        "rg_get_entry was told the major alone: structs are taken for those of minor 0, and what came since "
+        "is "
+        "as by default; pass RG_ABI_VERSION");
+  return result;
 }
 
 void destroy(rg_instance* instance) { delete instance; }
@@ -444,11 +462,17 @@ constexpr std::array<rg_api, sizeof...(kMinors)> tables(std::index_sequence<kMin
 }
 constexpr auto kTables = tables(std::make_index_sequence<RG_ABI_MINOR + 1>());
 
+constexpr rg_api kBareTable = [] {
+  rg_api table = kTables.front();
+  table.create = createForBareMajor;
+  return table;
+}();
+
 }  // namespace
 
 // A bare major tells no minor: only what minor 0 had has room in all hosts' structs.
 const rg_api* tableFor(uint32_t version) {
-  if (version == RG_ABI_MAJOR) return &kTables.front();
+  if (version == RG_ABI_MAJOR) return &kBareTable;
   const uint32_t major = version >> 16, minor = version & 0xffff;
   return major == RG_ABI_MAJOR ? &kTables[std::min(minor, RG_ABI_MINOR)] : nullptr;
 }

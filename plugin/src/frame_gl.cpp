@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "gl/program.h"
 #include "glass/wiper.h"
 #include "rain/picture.h"
 
@@ -78,6 +79,7 @@ Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
     : context(gl::loadContext(info.get_proc, info.get_proc_user)),
       host_resets_state(info.host_resets_state != 0) {
   const gl::StateGuard guarded = guard(kDrawTouches | kStepTouches);
+  gl::BegunPrograms programs(context->gl);
   rain = std::make_unique<rain::RainRenderer>(*context, capacity);
   beyond = std::make_unique<rain::BeyondRenderer>(*context);
   splashes = std::make_unique<surroundings::SplashRenderer>(*context);
@@ -85,6 +87,7 @@ Frame::Gl::Gl(const rg_gl_info& info, uint32_t capacity)
   glow = std::make_unique<surroundings::GlowRenderer>(*context);
   film_programs = glass::makeFilmPrograms(context->gl);
   look = std::make_unique<glass::GlassLook>(context->gl);
+  programs.finish();
   gl::throwOnError(context->gl, "attach_gl");
 }
 
@@ -109,10 +112,11 @@ Frame::Gl& Frame::attached() {
   return *gl_;
 }
 
+// Ticks may run while the driver compiles.
 void Frame::attach(const rg_gl_info& info) {
-  const std::lock_guard lock(sim_);
   if (gl_) refuse("the instance is attached already; detach_gl first", RG_ERROR_WRONG_ORDER);
   auto made = std::make_unique<Gl>(info, capacity_);
+  const std::lock_guard lock(sim_);
   timers_.attach(*made->context, info.force_finish_timer != 0);
   field_.publishAll(upload_);
   gl_ = std::move(made);

@@ -147,6 +147,25 @@ TEST(OlderHosts, areToldWhatThePluginIs) {
   }
 }
 
+// They may be of any minor from 0 to 7, and lose what came since 0.
+TEST(OlderHosts, areWarnedWhereTheyDoNotSayWhatTheyAre) {
+  const PluginLibrary library;
+  for (const uint32_t version : {RG_ABI_MAJOR, versionOf(0), RG_ABI_VERSION}) {
+    const rg_api* api = library.entry(version);
+    rg_create_info info;
+    api->default_create_info(&info);
+    int warnings = 0;
+    info.log_user = &warnings;
+    info.log = [](void* user, int32_t level, uint32_t, const char*) {
+      *static_cast<int*>(user) += level == RG_LOG_WARNING ? 1 : 0;
+    };
+    rg_instance* instance = nullptr;
+    ASSERT_EQ(api->create(&info, &instance), RG_OK);
+    EXPECT_EQ(warnings, version == RG_ABI_MAJOR ? 1 : 0) << version;
+    api->destroy(instance);
+  }
+}
+
 // What the header says of them, and 0 where it says nothing.
 TEST(Defaults, areAsTheHeaderSays) {
   const PluginLibrary library;

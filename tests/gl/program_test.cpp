@@ -123,6 +123,10 @@ struct Driver {
       ++asked;
       below->GetProgramiv(program, what, out);
     };
+    gl.GetShaderiv = [](GLuint shader, GLenum what, GLint* out) {
+      ++asked;
+      below->GetShaderiv(shader, what, out);
+    };
   }
   GladGLContext gl;
   static inline const char* name;
@@ -139,6 +143,25 @@ TEST_F(ProgramTest, isBegunAsItIsMadeAndWaitedForOnceNeededWhereTheDriverHasThre
   EXPECT_EQ(Driver::linked, 1);
   EXPECT_EQ(Driver::asked, 1);
   gl.UseProgram(0);
+}
+
+TEST_F(ProgramTest, manyAreWaitedForTogetherAndTheOneThatFailsIsNamed) {
+  Driver driver(gl, "Some GPU", true);
+  BegunPrograms all(driver.gl);
+  Program first(driver.gl, {"good.vert", "good.frag"}, kScaled, fakeFiles);
+  const Program second(driver.gl, {"good.vert", "good.frag"}, kScaled, fakeFiles);
+  const Program moved = std::move(first);
+  EXPECT_EQ(Driver::linked, 2);
+  EXPECT_EQ(Driver::asked, 0) << "asking waits";
+  all.finish();
+  EXPECT_EQ(Driver::asked, 2);
+  moved.use();
+  second.use();
+  EXPECT_EQ(Driver::asked, 2);
+  gl.UseProgram(0);
+  const Program third(driver.gl, {"unlinked.vert"}, {}, fakeFiles);
+  EXPECT_NE(failure([&] { all.finish(); }).find("unlinked.vert do not link"), std::string::npos);
+  context.takeMessages();
 }
 
 TEST_F(ProgramTest, isFinishedAsItIsMadeWhereTheDriverHasNoThreads) {

@@ -38,7 +38,7 @@
  *
  * RULES
  *
- *   Structs begin with `struct_size`: set it with the matching default_* function (or to sizeof). They grow only at the end. Arrays carry a
+ *   Structs begin with `struct_size`: set it with the matching default_* function (or to sizeof, having filled in all). They grow only at the end. Arrays carry a
  *   stride in bytes, so that a host compiled against an older header still walks them right. The fixed structs (rg_pose, rg_wiper_knot,
  *   rg_opening_knot, rg_glass_drop, rg_lamp) never grow.
  *   Pointers in a struct are read during the call only; nothing of yours is kept, except callbacks with their user pointers.
@@ -562,12 +562,12 @@ typedef struct rg_api {
    * context_lost. With host_resets_state 0 every GL call after it leaves the context's state as found, a
    * pending GL error included.
    *
-   * It is also where the driver compiles, some 80 programs: attach while you load. Where the driver does that
-   * on threads of its own (GL_KHR_parallel_shader_compile, as many as you left it) attach_gl does not wait
-   * for them; who needs a program first does, so draw a picture behind your loading screen if nothing else
-   * takes a second or two. Later no call compiles, whatever comes into view, but for the first draw_glass
-   * into a target of RG_SRGB: it begins some 40 more. On software GL programs are compiled as they are first
-   * drawn with. */
+   * It is also where the driver compiles, some 80 programs, all at once where it does that on threads of its
+   * own (GL_KHR_parallel_shader_compile, as many as you left it): attach while you load; update may run
+   * meanwhile. A program that the driver refuses is told here. Later no call asks for another, whatever comes
+   * into view, but for draw_glass into targets of RG_SRGB: the first begins some 40 more, or, where there are
+   * no such threads, what is first seen in them is compiled then. On software GL programs are compiled as
+   * they are first drawn with. */
   rg_result (*attach_gl)(rg_instance* instance, const rg_gl_info* info);
   rg_result (*detach_gl)(rg_instance* instance);
   /* The context is gone with all that was in it: forget GL names without freeing them. The water on the
@@ -674,10 +674,12 @@ typedef struct rg_api {
 /* The table of functions for hosts of a version of this header: pass RG_ABI_VERSION. Null when this library
  * does not speak its major. Its default_* functions fill in structs as that version has them and write
  * nothing behind, however much they have grown since. Of a version newer than the library they fill in what
- * the library knows, which is all it reads.
+ * the library knows, which is all it reads; where it knows less than you (abi_minor), set strides of arrays to
+ * your own sizeof. Libraries before minor 8 know the bare major alone and answer null.
  *
- * A bare RG_ABI_MAJOR, as hosts of minors 0 to 7 pass it, tells no minor and is taken for minor 0. What came
- * since then is as by default to such a host, until it fills in all of it and sets struct_size to sizeof.
+ * A bare RG_ABI_MAJOR, as hosts of minors 0 to 7 passed it, tells no minor and is taken for minor 0, which can
+ * overwrite nothing: what came since then is as by default to such a host, whatever it writes there, until it
+ * fills in all of it and sets struct_size to sizeof. A warning in the log says so at create().
  * Static: never freed. [thread: any] */
 RG_EXPORT const rg_api* rg_get_entry(uint32_t abi_version);
 

@@ -155,51 +155,87 @@ Building buildingOf(const GladGLContext& gl) {
   return gl.KHR_parallel_shader_compile != 0 ? Building::side_by_side : Building::at_once;
 }
 
+// How a program comes to be, whoever has it now.
+class ProgramBuild {
+ public:
+  ProgramBuild(const GladGLContext& gl, GLuint program, std::initializer_list<std::string_view> paths,
+               std::span<const std::string> defines, SourceFn source)
+      : gl_(gl),
+        program_(program),
+        paths_(paths),
+        defines_(defines.begin(), defines.end()),
+        source_(source) {}
+
+  // Asks for no result: that would wait for it.
+  void begin() {
+    std::vector<std::string> texts;
+    for (const std::string_view path : paths_) {
+      shaderKind(path);
+      texts.push_back(resolveIncludes(path, defines_, source_).text);
+    }
+    for (size_t k = 0; k < paths_.size(); ++k)
+      shaders_.push_back(attachShader(gl_, program_, shaderKind(paths_[k]), texts[k]));
+    gl_.LinkProgram(program_);
+  }
+
+  void finish() {
+    if (built_) return;
+    if (shaders_.empty()) begin();
+    GLint ok = 0;
+    gl_.GetProgramiv(program_, GL_LINK_STATUS, &ok);
+    if (!ok) refuse();
+    std::string label = joined(paths_);
+    for (const std::string& define : defines_) label += " " + define;
+    gl_.ObjectLabel(GL_PROGRAM, program_, static_cast<GLsizei>(label.size()), label.c_str());
+    built_ = true;
+  }
+
+ private:
+  [[noreturn]] void refuse() const;
+
+  const GladGLContext& gl_;
+  GLuint program_;
+  std::vector<std::string_view> paths_;
+  std::vector<std::string> defines_;
+  SourceFn source_;
+  std::vector<GLuint> shaders_;  // of `paths_`, once it is begun; the program keeps them alive
+  bool built_ = false;
+};
+
+void BegunPrograms::finish() {
+  for (const auto& build : builds_) build->finish();
+  builds_.clear();
+}
+
 Program::Program(const GladGLContext& gl, std::initializer_list<std::string_view> paths,
                  std::span<const std::string> defines, SourceFn source)
     : Object(gl, gl.CreateProgram()),
-      paths_(paths),
-      defines_(defines.begin(), defines.end()),
-      source_(source) {
+      build_(std::make_shared<ProgramBuild>(gl, Object::name(), paths, defines, source)) {
   const Building when = buildingOf(gl);
-  if (when != Building::when_used) begin();
-  if (when == Building::at_once) build();
+  if (when != Building::when_used) build_->begin();
+  if (when == Building::at_once) build_->finish();
+  auto* begun = static_cast<BegunPrograms*>(gl.userptr);
+  if (when == Building::side_by_side && begun != nullptr) begun->builds_.push_back(build_);
 }
 
-// Asks for no result: that would wait for it.
-void Program::begin() const {
-  for (const std::string_view path : paths_)
-    shaders_.push_back(
-        attachShader(gl(), Object::name(), shaderKind(path), resolveIncludes(path, defines_, source_).text));
-  gl().LinkProgram(Object::name());
-}
+void Program::finish() const { build_->finish(); }
 
-void Program::build() const {
-  if (shaders_.empty()) begin();
-  GLint ok = 0;
-  gl().GetProgramiv(Object::name(), GL_LINK_STATUS, &ok);
-  if (!ok) refuse();
-  const std::string label = joined(paths_);
-  gl().ObjectLabel(GL_PROGRAM, Object::name(), static_cast<GLsizei>(label.size()), label.c_str());
-  built_ = true;
-}
-
-void Program::refuse() const {
+void ProgramBuild::refuse() const {
   GLint ok = 0, length = 0;
   for (size_t k = 0; k < shaders_.size(); ++k) {
-    gl().GetShaderiv(shaders_[k], GL_COMPILE_STATUS, &ok);
+    gl_.GetShaderiv(shaders_[k], GL_COMPILE_STATUS, &ok);
     if (ok) continue;
-    gl().GetShaderiv(shaders_[k], GL_INFO_LOG_LENGTH, &length);
+    gl_.GetShaderiv(shaders_[k], GL_INFO_LOG_LENGTH, &length);
     const std::string log = readLog(length, [&](GLsizei size, GLsizei* written, char* to) {
-      gl().GetShaderInfoLog(shaders_[k], size, written, to);
+      gl_.GetShaderInfoLog(shaders_[k], size, written, to);
     });
     throw Error(Error::Kind::kDriver,
                 std::string(paths_[k]) + " does not compile:\n" +
                     nameFilesInLog(log, resolveIncludes(paths_[k], defines_, source_).files));
   }
-  gl().GetProgramiv(Object::name(), GL_INFO_LOG_LENGTH, &length);
+  gl_.GetProgramiv(program_, GL_INFO_LOG_LENGTH, &length);
   const std::string log = readLog(length, [&](GLsizei size, GLsizei* written, char* to) {
-    gl().GetProgramInfoLog(Object::name(), size, written, to);
+    gl_.GetProgramInfoLog(program_, size, written, to);
   });
   throw Error(Error::Kind::kDriver, joined(paths_) + " do not link:\n" + log);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,12 +36,30 @@ std::string nameFilesInLog(std::string_view log, std::span<const std::string> fi
 // When the driver compiles a program.
 enum class Building : uint8_t {
   at_once,       // as it is made
-  side_by_side,  // begun as it is made, on threads of the driver's own; who needs it first waits for it
+  side_by_side,  // begun as it is made, on threads of the driver's own; see BegunPrograms
   when_used      // as it is first needed
 };
 // On software GL, whose programs are ready to run only when drawn with anyway, most are never needed; on
 // others none is to be compiled in the middle of a drive.
 Building buildingOf(const GladGLContext& gl);
+
+class ProgramBuild;
+
+// Those made with this context while it lives and begun side by side, to be waited for together. Others wait
+// as they are first needed.
+class BegunPrograms {
+ public:
+  explicit BegunPrograms(GladGLContext& gl) : gl_(gl) { gl.userptr = this; }
+  ~BegunPrograms() { gl_.userptr = nullptr; }
+  BegunPrograms(const BegunPrograms&) = delete;
+  BegunPrograms& operator=(const BegunPrograms&) = delete;
+  void finish();  // throws as Program does, for the first that fails
+
+ private:
+  friend class Program;
+  GladGLContext& gl_;
+  std::vector<std::shared_ptr<ProgramBuild>> builds_;
+};
 
 class Program : public Object<detail::deleteProgram> {
  public:
@@ -52,7 +71,7 @@ class Program : public Object<detail::deleteProgram> {
           std::span<const std::string> defines = {}, SourceFn source = shaderSource);
 
   GLuint name() const {
-    if (*this && !built_) build();
+    if (*this) finish();
     return Object::name();
   }
   void use() const { gl().UseProgram(name()); }
@@ -87,15 +106,8 @@ class Program : public Object<detail::deleteProgram> {
   }
 
  private:
-  void begin() const;
-  void build() const;
-  [[noreturn]] void refuse() const;
-
-  std::vector<std::string_view> paths_;
-  std::vector<std::string> defines_;
-  SourceFn source_ = nullptr;
-  mutable std::vector<GLuint> shaders_;  // of `paths_`, once it is begun; the program keeps them alive
-  mutable bool built_ = false;
+  void finish() const;
+  std::shared_ptr<ProgramBuild> build_;
 };
 
 }  // namespace rg::gl

@@ -111,7 +111,8 @@ const gl::Program& LookPrograms::made(LookStage stage, uint32_t variant) {
 
 const gl::Program& LookPrograms::use(LookStage stage, uint32_t variant) {
   const uint32_t asked = askedOf(stage, variant);
-  if ((asked & kEncoded) != 0 && !programs_.contains({stage, asked})) makeAll(kEncoded);
+  const bool side_by_side = gl::buildingOf(*gl_) == gl::Building::side_by_side;
+  if ((asked & kEncoded) != 0 && side_by_side && !programs_.contains({stage, asked})) makeAll(kEncoded);
   const gl::Program& program = made(stage, asked);
   program.use();
   return program;

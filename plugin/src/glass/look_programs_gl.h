@@ -47,8 +47,9 @@ enum LookVariant : uint32_t {
 };
 
 // All that may be wanted of a pane whose mesh is cut into pieces, for targets of linear radiance, are made
-// with it, those for targets that hold sRGB when the first is wanted: then no lamp, no ridge and no mirror
-// that comes into view waits for a driver to compile (see gl::Building).
+// with it, so that no lamp, no ridge and no mirror that comes into view waits for a driver to compile (see
+// gl::Building). Those for targets that hold sRGB are begun when the first is wanted, or, where a driver has
+// no threads for that, made one by one.
 class LookPrograms {
  public:
   explicit LookPrograms(const GladGLContext& gl);
