@@ -92,11 +92,27 @@ class HostileStateAbi : public GlProfileTest {
 };
 INSTANTIATE_TEST_SUITE_P(Profiles, HostileStateAbi, bothProfiles(), profileName);
 
+// A window that stands open, which is clipped at its sill.
+void openWindow(const SmallScene& scene) {
+  constexpr uint32_t kWindow = 2;
+  scene.expect(scene.setUprightPane(kWindow, "window", {-0.7f, -0.3f}, 1.4f));
+  const int64_t later_ns = scene.time_ns + 1'000'000;
+  const rg_opening_knot half{later_ns, kWindow, 0, 0.2};
+  rg_sample sample;
+  scene.api.default_sample(&sample);
+  sample.time_ns = later_ns;
+  sample.opening_knots = &half;
+  sample.opening_knot_count = 1;
+  scene.expect(scene.api.update(scene.instance, later_ns, &sample, 1, sizeof sample));
+}
+
 TEST_P(HostileStateAbi, isKeptByEveryCall) {
   for (size_t variant = 0; variant < 2; ++variant) {
     SmallScene scene(*library.api);
     expectKept("attach_gl", variant, [&] { return scene.attach(GlContext::getProc); });
     const rg_target target = scene.target(odd.framebuffer(variant));
+    scene.expect(scene.step());
+    openWindow(scene);
     for (int frame = 0; frame < 8; ++frame) {
       scene.expect(scene.step());
       for (const Call& call : kCalls)
@@ -148,6 +164,8 @@ TEST_P(HostileStateAbi, changesNoPixelAndNoOtherAttachment) {
   const auto reader = context.shared();  // shares the textures, and its state stays plain
   SmallScene scene(*library.api);
   ASSERT_EQ(scene.attach(GlContext::getProc), RG_OK);
+  scene.expect(scene.step());
+  openWindow(scene);
   for (int i = 0; i < 30; ++i) {
     scene.expect(scene.step());
     scene.expect(scene.api.step_gpu(scene.instance));
