@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "film_reference.h"
@@ -183,6 +184,17 @@ TEST(Beads, aBrokenFilmLeavesWhatItsRidgesPinchOff) {
     }
     std::printf("%g um: %g beads, law %g\n", 1e6 * film_m, mean, law);
     EXPECT_NEAR(mean / law, 1.0, 0.05);  // chance in places, and one at least
+  }
+}
+
+// settled() compares with as many of the largest as a texel may have.
+TEST(Beads, theLargestOfAllOfATexelFitAnInt) {
+  for (double contact_deg = 0.5; contact_deg <= 175.5; contact_deg += 0.5) {
+    shared::FilmStepInfo info{};
+    glass::setBeadShape(info, contact_deg * kPi / 180.0);
+    ASSERT_GT(info.most_bead_pl, 0) << contact_deg;
+    ASSERT_LE(int64_t{info.most_bead_pl} * shared::kMostBeads, std::numeric_limits<int>::max())
+        << contact_deg;
   }
 }
 

@@ -2,6 +2,7 @@
 // ticks), and the report of it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -66,8 +67,9 @@ struct ThrownOff {
 inline void setBeadShape(shared::FilmStepInfo& info, double contact_rad) {
   const double shape = capShape(contact_rad);
   info.bead_mm3_per_pl = static_cast<float>(1e-6 / shape);
-  info.most_bead_pl =
-      static_cast<int>(picolitres(std::pow(static_cast<double>(shared::kMostBead_m), 3.0) * shape));
+  // No more than a texel's store holds: near 180 degrees a cap of any base is a great ball.
+  const int64_t most_pl = picolitres(std::pow(static_cast<double>(shared::kMostBead_m), 3.0) * shape);
+  info.most_bead_pl = static_cast<int>(std::clamp<int64_t>(most_pl, 1, shared::kMostBeads_pl));
   info.bead_by_ridge = shared::ridgeBeads(static_cast<float>(contact_rad));
 }
 
