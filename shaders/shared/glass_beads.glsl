@@ -14,7 +14,7 @@ struct Beads {
   int number;
 };
 RG_CONST int kMostBeads_pl = 0xffffff;
-RG_CONST int kMostBeads = 64;  // of a texel: the look finds one in 8 x 8 cells
+RG_CONST int kMostBeads = 64;  // of a texel; the number has 8 bits, and products with volumes stay below 2^31
 RG_FN Beads beadsOf(uint code) {
   Beads beads;
   beads.volume_pl = int(code & 0xffffffu);
@@ -125,7 +125,7 @@ RG_FN vec2 gridPlace(vec2 bead_place) {
 // A texel is cut in two, across its longer side or nearly so, its parts again, and so on, until each holds one bead: unevenly and by chance, and a part's
 // beads are fewer or more than its share of the area. So no rows are seen, and beads differ as those do that uneven ridges pinch off: their diameters'
 // law is gamma's of order 4 to 10 (Villermaux, Marmottant & Duplat 2004, Phys. Rev. Lett. 92, 074501), which here follows from volumes that go as
-// the squares of areas. One more bead parts one of those there are, or two; others stay where they are.
+// the squares of areas. One more bead parts one of those there are; others stay where they are, and are of another size for it.
 RG_CONST float kLeastPart = 0.3f;    // of what is cut (by eye)
 RG_CONST float kUnevenParts = 0.2f;  // by how much a part's share of the beads is another than of the area, at most (by eye)
 

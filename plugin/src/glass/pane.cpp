@@ -42,7 +42,8 @@ double filmEvaporation_mps(double humidity, double saturated_kg_m3, double air_m
   return still * ventilation(air_mps, 2.0 * kVapourLayer_m);
 }
 
-// Where the look shows a texel's lone bead: there it goes on as a drop.
+// Where the look shows a texel's lone bead, and one of them where there are several (the drop is of a mean
+// one then, and may begin beside any): there it goes on as a drop.
 glm::dvec2 beadPlace(const PaneMap& map, int texel, double radius_m) {
   const shared::SeatedBead bead = shared::seatedBead(static_cast<uint32_t>(texel), glm::vec2(0.0f), 1,
                                                      static_cast<float>(radius_m / map.grid().texel_m));
