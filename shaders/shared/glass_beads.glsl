@@ -59,11 +59,14 @@ RG_FN float beadsCovering(int volume_pl, float share, float mm3_per_pl, float pe
 
 // Of how many equal beads the water of two kinds is, so that a picolitre finds itself in a bead as large as before in the mean: as many as both where
 // they are alike; but a large drop's water is not shared out among the mist that it falls into. With p the second's share of the volume, 1 / number is
-// p^2 / number_b + (1 - p)^2 / number_a. In whole 256ths, which divide alike everywhere.
+// p^2 / number_b + (1 - p)^2 / number_a. In whole 128ths, which divide alike everywhere: all is below 2^32.
+// Both are rounded by chance, so that they are right in the mean: else a lone bead would stay one whatever small ones came to it one by one. The
+// volumes choose.
 RG_FN int numberOfBoth(RG_IN(Beads) a, int b_pl, int b_number) {
-  uint p = (uint(b_pl) << 8u) / uint(max(a.volume_pl + b_pl, 1)), rest = 256u - p;
+  uint chance = pcg(uint(a.volume_pl) ^ pcg(uint(b_pl))), whole_pl = uint(max(a.volume_pl + b_pl, 1));
+  uint p = ((uint(b_pl) << 7u) + chance % whole_pl) / whole_pl, rest = 128u - p;
   uint n = uint(max(a.number, 1)), m = uint(b_number), parts = p * p * n + rest * rest * m;
-  return a.number == 0 ? min(b_number, kMostBeads) : clamp(int((((n * m) << 16u) + parts / 2u) / parts), 1, kMostBeads);
+  return a.number == 0 ? min(b_number, kMostBeads) : clamp(int((((n * m) << 14u) + pcg(chance) % parts) / parts), 1, kMostBeads);
 }
 
 // As they come to others. What is too much for the store goes to the film.
