@@ -276,6 +276,32 @@ TEST(Beads, aFilmThatBreaksLeavesNoneThatIsTooLarge) {
   EXPECT_GT(broken, 1000);
 }
 
+// Specks that lie where it breaks do not keep its ridges from pinching off; nor does a large bead part.
+TEST(Beads, aFilmThatBreaksLeavesAsManyOverSpecksAsByItself) {
+  shared::FilmStepInfo info = uncoated();
+  info.rupture_chance = 1.0f;
+  constexpr int kFilm_pl = 18'000;  // 2 um
+  constexpr uint32_t kTexels = 1000;
+  int clean = 0, more = 0, again = 0, large = 0;
+  for (uint32_t texel = 0; texel < kTexels; ++texel) {
+    const auto left = [&](Beads lying) {
+      const shared::FilmTexel t = shared::dried(kFilm_pl, lying, texel, kTexel, info);
+      EXPECT_EQ(t.film_pl, 0);
+      return t.beads.number;
+    };
+    const int alone = left(beads(0, 0)), over_specks = left(beads(1200, 20));
+    ASSERT_GE(over_specks, alone) << texel;
+    clean += alone;
+    more += over_specks - alone;
+    again += left(beads(kFilm_pl, alone)) - alone;
+    large += left(beads(200'000, 1));
+  }
+  EXPECT_GT(clean, 3 * static_cast<int>(kTexels));  // or there would be nothing to leave fewer of
+  EXPECT_LT(more, clean / 2);  // specks hold too little water to be counted with the others
+  EXPECT_EQ(again, 0);         // as its ridges end where the last ones did
+  EXPECT_LT(large, 3 * static_cast<int>(kTexels) / 2);  // by the law of water: 1 / 0.84
+}
+
 // The beads of a texel: each part's lower corner lies at another's right or upper edge.
 std::vector<shared::SeatedBead> seatsOf(uint32_t texel, int number, float mean) {
   constexpr float kIn = 1e-6f;
