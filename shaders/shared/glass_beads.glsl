@@ -24,7 +24,8 @@ RG_FN Beads beadsOf(uint code) {
 RG_FN Beads noBeads() { return beadsOf(0u); }
 RG_FN uint packedBeads(RG_IN(Beads) beads) { return uint(beads.volume_pl) | (uint(beads.number) << 24u); }
 
-// Base radius of the largest: what is larger wind and weight may move, and so it is a drop.
+// Base radius of the largest: what is larger wind and weight may move, and so it is a drop. On glass that holds less it is less (mostBead_m3 in
+// glass/film_order.h).
 RG_CONST float kMostBead_m = 1.1e-3f;
 
 // Share of the glass that beads cover before they touch and run together: with more there is no room between (rain on a pane, by eye; drops of

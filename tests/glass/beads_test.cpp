@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "drop_scene.h"
 #include "film_reference.h"
 #include "gl_fixture.h"
 #include "glass/film_gl.h"
@@ -33,7 +34,7 @@ shared::FilmStepInfo uncoated() {
   info.pin_m = static_cast<float>(s.pin_m);
   info.front_m = static_cast<float>(s.front_m);
   info.rupture_m = static_cast<float>(s.rupture_m);
-  glass::setBeadShape(info, glass::meanAngle(s));
+  glass::setBeadShape(info, s);
   info.drops_allowed = 1;
   return info;
 }
@@ -231,13 +232,39 @@ TEST(Beads, aBrokenFilmLeavesWhatItsRidgesPinchOff) {
 
 // settled() compares with as many of the largest as a texel may have.
 TEST(Beads, theLargestOfAllOfATexelFitAnInt) {
-  for (double contact_deg = 0.5; contact_deg <= 175.5; contact_deg += 0.5) {
-    shared::FilmStepInfo info{};
-    glass::setBeadShape(info, contact_deg * kPi / 180.0);
-    ASSERT_GT(info.most_bead_pl, 0) << contact_deg;
-    ASSERT_LE(int64_t{info.most_bead_pl} * shared::kMostBeads, std::numeric_limits<int>::max())
-        << contact_deg;
+  for (double advancing_deg = 0.5; advancing_deg <= 175.5; advancing_deg += 0.5) {
+    for (const double receding : {0.001, 0.5, 0.98, 1.0}) {
+      glass::Surface surface = glass::surfaceOf(glass::Glass::uncoated);
+      surface.advancing_rad = rad(advancing_deg);
+      surface.receding_rad = receding * surface.advancing_rad;
+      shared::FilmStepInfo info{};
+      glass::setBeadShape(info, surface);
+      ASSERT_GT(info.most_bead_pl, shared::kLeastBead_pl) << advancing_deg << " " << receding;
+      ASSERT_LE(int64_t{info.most_bead_pl} * shared::kMostBeads, std::numeric_limits<int>::max())
+          << advancing_deg << " " << receding;
+    }
   }
+}
+
+// What a drop of that size would do: it rests on any pane, and on a new coating a larger one runs.
+TEST(Beads, theLargestRestOnAnUprightPane) {
+  const auto runs = [](glass::Glass glass, double larger) {
+    const glass::Surface surface = glass::surfaceOf(glass);
+    shared::FilmStepInfo info{};
+    glass::setBeadShape(info, surface);
+    DropScene scene(rad(90), glass);
+    const double radius_m =
+        std::cbrt(glass::cubicMetres(info.most_bead_pl) / glass::capShape(glass::meanAngle(surface)));
+    scene.place(0.0, 0.0, larger * radius_m, glass::meanAngle(surface));
+    const glm::vec2 start = scene.sim->snapshot()->drops.at(0).position_m;
+    scene.run(weather(0.0), 1.0);
+    const auto after = scene.sim->snapshot();
+    return after->drops.empty() || glm::distance(after->drops[0].position_m, start) > 1e-5f;
+  };
+  for (const glass::Glass glass :
+       {glass::Glass::uncoated, glass::Glass::dirty, glass::Glass::coated, glass::Glass::new_coating})
+    EXPECT_FALSE(runs(glass, 0.98)) << static_cast<int>(glass);
+  EXPECT_TRUE(runs(glass::Glass::new_coating, 1.02));
 }
 
 // What wind and weight may move is no bead.
@@ -587,14 +614,23 @@ TEST_F(BeadsOnGlass, noImpactThatWindMayMoveLiesAsABead) {
   const Mesh mesh = windscreen(0.3, 0.2, rad(30));
   glass::PaneInfo info = paneInfo(mesh);
   info.texel_m = 5e-3;
-  for (const double diameter_m : {0.9e-3, 1.05e-3}) {  // beads of 1.03 and 1.20 mm
+  struct Case {
+    glass::Glass glass;
+    double diameter_m;
+    bool lies;
+  };
+  for (const Case c : {Case{glass::Glass::uncoated, 0.9e-3, true},         // a bead of 1.03 mm
+                       Case{glass::Glass::uncoated, 1.05e-3, false},       // of 1.20 mm
+                       Case{glass::Glass::new_coating, 1.1e-3, true},      // of 0.62 mm; 0.67 rest
+                       Case{glass::Glass::new_coating, 1.3e-3, false}}) {  // of 0.74 mm
+    info.glass = c.glass;
     Simulation sim(gl, info);
     glass::PaneTick rain = weather(0.0);
     rain.class_count = 1;
-    rain.classes[0] = {diameter_m, 100.0, 2.0};
+    rain.classes[0] = {c.diameter_m, 100.0, 2.0};
     sim.run(rain, 0.5);
-    EXPECT_EQ(sim.stats().beads_pl > 0, diameter_m < 1e-3) << diameter_m;
-    EXPECT_EQ(sim.stats().drops > 0, diameter_m > 1e-3) << diameter_m;
+    EXPECT_EQ(sim.stats().beads_pl > 0, c.lies) << c.diameter_m;
+    EXPECT_EQ(sim.stats().drops > 0, !c.lies) << c.diameter_m;
   }
 }
 

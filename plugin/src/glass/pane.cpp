@@ -214,7 +214,7 @@ void PaneSim::State::closeFilmStep() {
                air_mps = 0.5 * glm::length(now.air_mps);
   info.evaporation_mps = static_cast<float>(filmEvaporation_mps(now.humidity, saturated_kg_m3, air_mps));
   const double angle = meanAngle(surface);
-  setBeadShape(info, angle);
+  setBeadShape(info, surface);
   info.bead_drying_pl_mm = static_cast<float>(
       evaporation_kg_s(1e-3, angle, std::min(now.humidity, 1.0), saturated_kg_m3) / kRho_kg_m3 *
       kPicolitresPerM3 * shared::kDryingSteps * kTicksPerFilmStep * kTickSeconds);
