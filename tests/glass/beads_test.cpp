@@ -634,6 +634,26 @@ TEST_F(BeadsOnGlass, noImpactThatWindMayMoveLiesAsABead) {
   }
 }
 
+// Nor is it one until the film's step finds that it is too large.
+TEST(Beads, anImpactThatAnUprightPaneWouldNotHoldIsADropAtOnce) {
+  const Mesh mesh = windscreen(0.3, 0.2, rad(30));
+  glass::PaneInfo info = paneInfo(mesh);
+  info.texel_m = 5e-3;
+  info.glass = glass::Glass::new_coating;
+  for (const double diameter_m : {1.1e-3, 1.3e-3}) {  // as above
+    glass::PaneSim sim(info, 1, 7);
+    sim.attachFilm();
+    glass::PaneTick rain = weather(0.0);
+    rain.class_count = 1;
+    rain.classes[0] = {diameter_m, 1000.0, 2.0};
+    for (; rain.index < glass::kReportLatency_ticks; ++rain.index) sim.submit(rain);
+    size_t lying = 0;
+    for (const glass::FilmOrder& order : sim.fetchOrders()) lying += order.bead_adds.size();
+    EXPECT_EQ(lying > 0, diameter_m < 1.2e-3) << lying;
+    EXPECT_EQ(sim.stats().drops > 0, diameter_m > 1.2e-3) << diameter_m;
+  }
+}
+
 // What lies in its way a drop takes up, as wide as it is and no wider.
 TEST_F(BeadsOnGlass, aDropThatSlidesClearsItsWholeWidth) {
   const Mesh mesh = windscreen(0.3, 0.2, rad(50));
