@@ -103,7 +103,7 @@ class Downpour {
     order.info.rupture_chance = 0.001f;
     order.info.evaporation_mps = 1e-9f;
     order.info.drops_allowed = 1;
-    glass::setBeadShape(order.info, 0.436);
+    glass::setBeadShape(order.info, glass::surfaceOf(glass::Glass::uncoated));
     shared::setLevelling(order.info, 8.5f, static_cast<float>(1.0 / (kTexel_m * kTexel_m)));
     // A raked windscreen at some 50 km/h.
     order.drive.assign(static_cast<size_t>(map_.nodeCount().x * map_.nodeCount().y),

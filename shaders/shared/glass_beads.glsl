@@ -14,7 +14,7 @@ struct Beads {
   int number;
 };
 RG_CONST int kMostBeads_pl = 0xffffff;
-RG_CONST int kMostBeads = 64;  // of a texel: the look finds one in 8 x 8 cells
+RG_CONST int kMostBeads = 64;  // of a texel; the number has 8 bits, and products with volumes stay below 2^31
 RG_FN Beads beadsOf(uint code) {
   Beads beads;
   beads.volume_pl = int(code & 0xffffffu);
@@ -24,7 +24,8 @@ RG_FN Beads beadsOf(uint code) {
 RG_FN Beads noBeads() { return beadsOf(0u); }
 RG_FN uint packedBeads(RG_IN(Beads) beads) { return uint(beads.volume_pl) | (uint(beads.number) << 24u); }
 
-// Base radius of the largest: what is larger wind and weight may move, and so it is a drop.
+// Base radius of the largest: what is larger wind and weight may move, and so it is a drop. On glass that holds less it is less (mostBead_m3 in
+// glass/film_order.h).
 RG_CONST float kMostBead_m = 1.1e-3f;
 
 // Share of the glass that beads cover before they touch and run together: with more there is no room between (rain on a pane, by eye; drops of
@@ -59,11 +60,14 @@ RG_FN float beadsCovering(int volume_pl, float share, float mm3_per_pl, float pe
 
 // Of how many equal beads the water of two kinds is, so that a picolitre finds itself in a bead as large as before in the mean: as many as both where
 // they are alike; but a large drop's water is not shared out among the mist that it falls into. With p the second's share of the volume, 1 / number is
-// p^2 / number_b + (1 - p)^2 / number_a. In whole 256ths, which divide alike everywhere.
+// p^2 / number_b + (1 - p)^2 / number_a. In whole 128ths, which divide alike everywhere: all is below 2^32.
+// Both are rounded by chance, so that they are right in the mean: else a lone bead would stay one whatever small ones came to it one by one. The
+// volumes choose.
 RG_FN int numberOfBoth(RG_IN(Beads) a, int b_pl, int b_number) {
-  uint p = (uint(b_pl) << 8u) / uint(max(a.volume_pl + b_pl, 1)), rest = 256u - p;
+  uint chance = pcg(uint(a.volume_pl) ^ pcg(uint(b_pl))), whole_pl = uint(max(a.volume_pl + b_pl, 1));
+  uint p = ((uint(b_pl) << 7u) + chance % whole_pl) / whole_pl, rest = 128u - p;
   uint n = uint(max(a.number, 1)), m = uint(b_number), parts = p * p * n + rest * rest * m;
-  return a.number == 0 ? min(b_number, kMostBeads) : clamp(int((((n * m) << 16u) + parts / 2u) / parts), 1, kMostBeads);
+  return a.number == 0 ? min(b_number, kMostBeads) : clamp(int((((n * m) << 14u) + pcg(chance) % parts) / parts), 1, kMostBeads);
 }
 
 // As they come to others. What is too much for the store goes to the film.
@@ -125,7 +129,7 @@ RG_FN vec2 gridPlace(vec2 bead_place) {
 // A texel is cut in two, across its longer side or nearly so, its parts again, and so on, until each holds one bead: unevenly and by chance, and a part's
 // beads are fewer or more than its share of the area. So no rows are seen, and beads differ as those do that uneven ridges pinch off: their diameters'
 // law is gamma's of order 4 to 10 (Villermaux, Marmottant & Duplat 2004, Phys. Rev. Lett. 92, 074501), which here follows from volumes that go as
-// the squares of areas. One more bead parts one of those there are, or two; others stay where they are.
+// the squares of areas. One more bead parts one of those there are; others stay where they are, and are of another size for it.
 RG_CONST float kLeastPart = 0.3f;    // of what is cut (by eye)
 RG_CONST float kUnevenParts = 0.2f;  // by how much a part's share of the beads is another than of the area, at most (by eye)
 

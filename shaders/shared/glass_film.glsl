@@ -269,9 +269,10 @@ RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) m
   t.gone_pl = film_dried_pl + beads_dried_pl;
   float h_m = thickness_m(t.film_pl, metric);
   int surplus_pl = 0;
-  // Beads that lie there are where its ridges end.
-  int new_ones = max(beadsOfBrokenFilm(h_m, texel ^ info.pane, metric.z, info.bead_by_ridge) - t.beads.number, 1);
-  Beads more = joinedBy(t.beads, t.film_pl, new_ones, surplus_pl);
+  // Beads that lie there are where its ridges end: as many as those or as it leaves by itself, whichever is more, but no more than both waters make.
+  int of_film = beadsOfBrokenFilm(h_m, texel ^ info.pane, metric.z, info.bead_by_ridge);
+  Beads more = joinedBy(t.beads, t.film_pl, of_film, surplus_pl);
+  more.number = min(more.number, max(of_film, t.beads.number));
   // None of them too large at once: what dries is left as settled() leaves it, and may sleep on.
   int most_pl = max(info.most_bead_pl, 1), least = (more.volume_pl + most_pl - 1) / most_pl;
   int number = int(min(float(max(more.number, least)), beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z)));

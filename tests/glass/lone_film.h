@@ -57,7 +57,7 @@ class LoneFilm {
       order.info.front_m = static_cast<float>(glass.front_m);
       order.info.rupture_m = static_cast<float>(breaks ? glass.rupture_m : 0.0);
       order.info.rupture_chance = static_cast<float>(glass.rupture_hz * shared::kDryingSteps / 60.0);
-      glass::setBeadShape(order.info, glass::meanAngle(glass));
+      glass::setBeadShape(order.info, glass);
       shared::setLevelling(order.info, static_cast<float>(pressing_mps2),
                            static_cast<float>(1.0 / (texel_m_ * texel_m_)));
       order.drive.assign(map_.nodes().size(), shared::vec4(drive));

@@ -71,8 +71,7 @@ Drops::Drops(const PaneMap& map, const Surface& surface, uint32_t capacity)
   block_count_ = (cell_count_ + (kBlock - 1)) / kBlock;
   widest_m_.assign(static_cast<size_t>(block_count_.x * block_count_.y), 0.0f);
   for (int y = 0; y < cell_count_.y; ++y) {
-    for (int x = 0; x < cell_count_.x; ++x)
-      block_of_.push_back(y / kBlock * block_count_.x + x / kBlock);
+    for (int x = 0; x < cell_count_.x; ++x) block_of_.push_back(y / kBlock * block_count_.x + x / kBlock);
   }
 }
 
@@ -270,7 +269,7 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
 
 double Drops::largestBead_m3(double texel_m2) const {
   const double radius_m = std::sqrt(static_cast<double>(shared::kCrowded) * texel_m2 / std::numbers::pi);
-  return shape_mean_ * std::pow(std::min(radius_m, static_cast<double>(shared::kMostBead_m)), 3.0);
+  return std::min(shape_mean_ * radius_m * radius_m * radius_m, mostBead_m3(surface_));
 }
 
 // A volume that a texel holds as a lone bead does not become a drop, where there is a film to hold it.

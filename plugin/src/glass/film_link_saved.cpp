@@ -153,8 +153,12 @@ void FilmLink::checkOrder(const saved::Reader& a) const {
       a.require(lies(range.first, range.count, sweep.swept->size()), "a blade swept more than there is");
     }
   }
-  for (const shared::RidgeLeave& leave : order_.leaves)
+  std::vector<bool> left(size_t{kRidgePieces}, false);  // the kernel leaves all pieces at once
+  for (const shared::RidgeLeave& leave : order_.leaves) {
     a.require(lies(leave.first, leave.count, order_.leave_texels.size()), "a ridge is left nowhere");
+    a.require(!left[static_cast<size_t>(leave.segment)], "a ridge is left twice");
+    left[static_cast<size_t>(leave.segment)] = true;
+  }
   a.require(order_.leave_edges.size() == order_.leaves.size(), "a ridge is left at no edge");
   for (const int texel : order_.leave_edges)
     a.require(texel >= -1 && texel < map_->texelCount(), "a ridge is left at an edge of another pane");

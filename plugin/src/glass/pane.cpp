@@ -42,7 +42,8 @@ double filmEvaporation_mps(double humidity, double saturated_kg_m3, double air_m
   return still * ventilation(air_mps, 2.0 * kVapourLayer_m);
 }
 
-// Where the look shows a texel's lone bead: there it goes on as a drop.
+// Where the look shows a texel's lone bead, and one of them where there are several (the drop is of a mean
+// one then, and may begin beside any): there it goes on as a drop.
 glm::dvec2 beadPlace(const PaneMap& map, int texel, double radius_m) {
   const shared::SeatedBead bead = shared::seatedBead(static_cast<uint32_t>(texel), glm::vec2(0.0f), 1,
                                                      static_cast<float>(radius_m / map.grid().texel_m));
@@ -213,7 +214,7 @@ void PaneSim::State::closeFilmStep() {
                air_mps = 0.5 * glm::length(now.air_mps);
   info.evaporation_mps = static_cast<float>(filmEvaporation_mps(now.humidity, saturated_kg_m3, air_mps));
   const double angle = meanAngle(surface);
-  setBeadShape(info, angle);
+  setBeadShape(info, surface);
   info.bead_drying_pl_mm = static_cast<float>(
       evaporation_kg_s(1e-3, angle, std::min(now.humidity, 1.0), saturated_kg_m3) / kRho_kg_m3 *
       kPicolitresPerM3 * shared::kDryingSteps * kTicksPerFilmStep * kTickSeconds);

@@ -1,5 +1,6 @@
 // From one pane's edge to the next pane's, round the pillar between both: what runs off the one there, or a
-// blade throws over, goes on over the other: a windscreen's water over the side windows.
+// blade throws over, goes on over the other: a windscreen's water over the side windows. Of a blade what the
+// film's step reports: not what those of panes without a film throw, nor what one cannot hold.
 #pragma once
 
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "glass/pane.h"
+#include "gravity.h"
 
 namespace rg::glass {
 
@@ -65,6 +66,18 @@ inline double meanAngle(const Surface& surface) {
   return 0.5 * (surface.advancing_rad + surface.receding_rad);
 }
 
+// The force that holds a drop of base width w (Furmidge; k = 24 / pi^3, ElSherbini & Jacobi 2006).
+inline double retention_n(double width_m, double cos_receding, double cos_advancing) {
+  constexpr double kShape = 24.0 / (std::numbers::pi * std::numbers::pi * std::numbers::pi);
+  return kShape * kGamma_n_m * width_m * (cos_receding - cos_advancing);
+}
+
+// Base radius R of the largest cap that an upright pane holds: rho V(R) g = retention(2 R).
+inline double heldRadius_m(const Surface& surface) {
+  const double hold_n_m = retention_n(2.0, std::cos(surface.receding_rad), std::cos(surface.advancing_rad));
+  return std::sqrt(hold_n_m / (kRho_kg_m3 * kGravity_mps2 * capShape(meanAngle(surface))));
+}
+
 // What of a cap stands above a height: a cap of the same sphere.
 inline double capVolumeAbove(double height_m, double base_radius_m, double above_m) {
   const double rest_m = height_m - above_m;
@@ -85,12 +98,6 @@ inline double capOutline_m2(double height_m, double base_radius_m) {
   if (t < 0.3) return r2 * t * (4.0 / 3.0 + 4.0 / 15.0 * t * t);
   const double sphere = (1.0 + t * t) / (2.0 * t);  // over R
   return r2 * (2.0 * sphere * sphere * std::atan(t) - (1.0 - t * t) / (2.0 * t));
-}
-
-// The force that holds a drop of base width w (Furmidge; k = 24 / pi^3, ElSherbini & Jacobi 2006).
-inline double retention_n(double width_m, double cos_receding, double cos_advancing) {
-  constexpr double kShape = 24.0 / (std::numbers::pi * std::numbers::pi * std::numbers::pi);
-  return kShape * kGamma_n_m * width_m * (cos_receding - cos_advancing);
 }
 
 // Mass of water vapour in saturated air, kg/m^3: Magnus' formula (Sonntag 1990) and the ideal gas; 0.0173 at
