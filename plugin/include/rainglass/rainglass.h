@@ -478,7 +478,8 @@ typedef struct rg_pane_stats {
   double dropped_s; /* time that was left out for this pane since it was made or reset: of stalls longer than
                        time.catch_up_s, and while step_gpu did not come for more than 5 s */
   /* Since minor 7. */
-  double run_on_ml; /* of caught: ran or was thrown off other panes of its vehicle and came round the pillar (glass.run_off) */
+  double run_on_ml; /* of caught: ran or was thrown off other panes of its vehicle and came round the pillar
+                       (glass.run_off) */
 } rg_pane_stats;
 
 typedef struct rg_stage_stats {
@@ -674,12 +675,12 @@ typedef struct rg_api {
 /* The table of functions for hosts of a version of this header: pass RG_ABI_VERSION. Null when this library
  * does not speak its major. Its default_* functions fill in structs as that version has them and write
  * nothing behind, however much they have grown since. Of a version newer than the library they fill in what
- * the library knows, which is all it reads; where it knows less than you (abi_minor), set strides of arrays to
- * your own sizeof. Libraries before minor 8 know the bare major alone and answer null.
+ * the library knows, which is all it reads; where it knows less than you (abi_minor), set strides of arrays
+ * to your own sizeof. Libraries before minor 8 know the bare major alone and answer null.
  *
- * A bare RG_ABI_MAJOR, as hosts of minors 0 to 7 passed it, tells no minor and is taken for minor 0, which can
- * overwrite nothing: what came since then is as by default to such a host, whatever it writes there, until it
- * fills in all of it and sets struct_size to sizeof. A warning in the log says so at create().
+ * A bare RG_ABI_MAJOR, as hosts of minors 0 to 7 passed it, tells no minor and is taken for minor 0, which
+ * can overwrite nothing: what came since then is as by default to such a host, whatever it writes there,
+ * until it fills in all of it and sets struct_size to sizeof. A warning in the log says so at create().
  * Static: never freed. [thread: any] */
 RG_EXPORT const rg_api* rg_get_entry(uint32_t abi_version);
 
