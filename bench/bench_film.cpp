@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gl/program.h"
+#include "glass/bead_shape.h"
 #include "glass/film_gl.h"
 #include "glass/pane.h"
 #include "measure.h"

@@ -56,8 +56,7 @@ rg_result createForBareMajor(const rg_create_info* in, rg_instance** out) {
   const rg_result result = create(in, out);
   if (result == RG_OK)
     say(**out, RG_LOG_WARNING, kLogBareMajor,
-        "rg_get_entry was told the major alone: structs are taken for those of minor 0, and what came since "
-        "is "
+        "rg_get_entry was told the major alone: structs are taken for those of minor 0, what came since is "
         "as by default; pass RG_ABI_VERSION");
   return result;
 }

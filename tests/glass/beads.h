@@ -1,8 +1,7 @@
 // Beads on uncoated glass, for tests of their laws.
 #pragma once
 
-#include "glass/film_order.h"
-#include "glass/water.h"
+#include "glass/bead_shape.h"
 #include "shared/glass_film.glsl"
 
 namespace rg::test {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "glass/bead_shape.h"
 #include "glass/film_gl.h"
 #include "glass/water.h"
 #include "scene.h"

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "glass/bead_shape.h"
 #include "glass/drop_shape.h"
 #include "glass/random.h"
 #include "shared/glass_beads.glsl"

@@ -83,9 +83,8 @@ class FilmLink {
   // Of the film as last used: tiles' means, linear between their middles. Nowhere is it more than the
   // thickest's.
   double thickness_m(int texel) const;
-  double mostAbout_m(size_t tile) const {
-    return static_cast<double>(most_about_m_[tile]);
-  }  // anywhere on it
+  // The most that is told anywhere on a tile.
+  double mostAbout_m(size_t tile) const { return static_cast<double>(most_about_m_[tile]); }
   double thickest_m() const { return static_cast<double>(thickest_m_); }
   bool watered(int texel) const;  // film or beads are in the tile, as last used
 

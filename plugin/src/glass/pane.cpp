@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "glass/bead_shape.h"
 #include "glass/pane_state.h"
 #include "glass/pillar.h"
 #include "glass/random.h"
