@@ -1,7 +1,10 @@
-// For GPUs, what comes before the flow at once where no blade comes between: changes as glass/film_change.comp has them, and tiles whose turn it is dry,
-// as in glass/film_dry.comp. First groups that dry, a tile each, with the changes to it; then groups that work through the changes to others.
+// For GPUs, what comes before the flow at once where no blade comes between: what drives the film is brought from the orders, which lie in the CPU's
+// memory; changes as glass/film_change.comp has them; and tiles whose turn it is dry, as in glass/film_dry.comp. First groups that bring, as that takes
+// longest; then groups that dry, a tile each, with the changes to it; then groups that work through the changes to others.
 #include "glass/film_tile.glsl"
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric; // of the corners of tiles
+layout(rgba32f, binding = 2) readonly uniform imageBuffer ordered_drive;
+layout(rgba32f, binding = 3) writeonly uniform imageBuffer drive;
 layout(std430, binding = 0) readonly buffer Changes { FilmChange changes[]; };
 layout(std430, binding = 2) writeonly buffer Report { int taken_pl[]; };
 layout(std430, binding = 3) buffer Film { int film[]; };
@@ -10,6 +13,7 @@ layout(std430, binding = 6) buffer Lying { uint beads[]; };
 layout(std430, binding = 7) writeonly buffer Other { int other[]; };
 layout(location = 2) uniform int drying;  // tiles
 layout(location = 3) uniform int changed; // 0: the changes to those that dry have been made
+layout(location = 4) uniform int nodes;   // of the drive
 
 shared int film_here[kTileTexels];
 shared uint beads_here[kTileTexels];
@@ -76,8 +80,13 @@ void dry(int k) {
   states[t].dried_pl = sum.w;
 }
 
+void bring(int node) {
+  if (node < nodes) imageStore(drive, node, imageLoad(ordered_drive, node));
+}
+
 void main() {
-  int group = int(groupInRows());
-  if (group < drying) dry(group);
+  int bringing = (nodes + kTileTexels - 1) / kTileTexels, group = int(groupInRows()) - bringing;
+  if (group < 0) bring((group + bringing) * kTileTexels + lane());
+  else if (group < drying) dry(group);
   else changeElsewhere((group - drying) * kTileTexels + lane());
 }

@@ -1,59 +1,65 @@
-// The film step of glass/film_flow.comp for GPUs: groups of as many invocations as a tile has texels, each of which works out its own, and hears of others
-// through shared memory. So all have much to do at once, with few registers each, and a texel's law is worked out 1.25 times, a face's flow once. A group
-// finds out by itself whether its tile is awake, and one more tells of the ridges: nothing goes before but what changes the film.
-#include "glass/film_tile.glsl"
+// The film step of glass/film_flow.comp for GPUs: a group is a tile, an invocation a strip of it, whose texels' laws are worked out side by side. Groups
+// hear of each other's nothing and of their own through shared memory, so that a texel's law is worked out 1.25 times, a face's flow once, and what all
+// do but once a group or an invocation is shared by many texels. A group finds out by itself whether its tile is awake, and one more tells of the ridges:
+// nothing goes before but what changes the film.
+#include "glass/film_buffers.glsl"
+const int kLanes = kStrips * kTileSize;
+layout(local_size_x = kLanes) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
 layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
+layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // the beads' buffer below
 layout(rgba32ui, binding = 4) readonly uniform uimageBuffer glass; // a code for each strip of a tile's row
-layout(std430, binding = 2) writeonly buffer Report { int report[]; }; // FilmTile of each tile, and the ridges
-layout(std430, binding = 3) writeonly buffer After { int after[]; };
-layout(std430, binding = 6) buffer Lying { uint beads[]; };
+layout(std430, binding = 2) writeonly buffer Report { ivec4 report[]; }; // FilmTile of each tile, and the ridges
+layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
+layout(std430, binding = 6) writeonly buffer Lying { uvec4 beads[]; };
 layout(location = 2) uniform int ridges_at; // in the report
 
-// The tile's film and two texels about it, in whole strips; row by row from below, the two's first.
-const int kAbout = 2, kSeenStrips = kStrips + 2, kSeenRows = kTileSize + 2 * kAbout, kSeenRow = kSeenStrips * kStripSize;
-shared int film[kSeenRows * kSeenRow];
-int seenAt(ivec2 at) { return (at.y + kAbout) * kSeenRow + at.x + kStripSize; }
+ivec2 tile() { return ivec2(gl_WorkGroupID.xy); }
+int acrossTiles() { return int(gl_NumWorkGroups.x); } // the last row of groups has no tiles
+int lane() { return int(gl_LocalInvocationIndex); }
+int stripIn(int row, int column) { return ((tile().y * kTileSize + row) * acrossTiles() + tile().x) * kStrips + column; }
 
-// Its texels as their neighbours see them, and those beside it.
-const int kCellRow = kTileSize + 2;
-shared vec4 cell_states[kCellRow * kCellRow];  // thickness, hollowness, slack, entry
-shared ivec4 cell_wishes[kCellRow * kCellRow]; // along x and y, and to both sides
-int cellAt(ivec2 at) { return (at.y + 1) * kCellRow + at.x + 1; }
+// The tile's film and what is about it: two rows, and a strip on either side.
+const int kRowsAbout = 2, kSeenStrips = kStrips + 2, kSeenRows = kTileSize + 2 * kRowsAbout;
+shared ivec4 film[kSeenRows * kSeenStrips];
+int seenAt(int row, int column) { return (row + kRowsAbout) * kSeenStrips + column + 1; }
+int filmAt(ivec2 at) { return film[seenAt(at.y, at.x >> 2)][at.x & 3]; }
 
-// Of the glass below these, a code for each strip of a row; fields along their columns, at four edges of tiles.
-const int kEdges = 4;
-shared uint codes[kCellRow * kStrips];
-shared vec4 column_metric[kEdges * kCellRow], column_drive[kEdges * kCellRow];
+// Its texels as their neighbours see them, and those beside it: strips' first, second, third and fourth each together, as invocations side by side ask
+// for them.
+const int kCellStrips = kStrips + 1, kCellRows = kTileSize + 2;
+shared vec4 cell_states[kStripSize * kCellRows * kCellStrips];  // thickness, hollowness, slack, entry
+shared ivec4 cell_wishes[kStripSize * kCellRows * kCellStrips]; // along x and y, and to both sides
+int cellAt(ivec2 at) { return ((at.x & 3) * kCellRows + at.y + 1) * kCellStrips + ((at.x + 1) >> 2); }
 
-// What passes over the left and the lower edges of texels, and over the last ones' others.
-shared int flow_x[kTileSize * (kTileSize + 1)], flow_y[kTileSize * (kTileSize + 1)];
+// Fields along the columns of texels, at four edges of tiles.
+const int kEdges = 4, kColumns = kTileSize + 2;
+shared vec4 column_metric[kEdges * kColumns], column_drive[kEdges * kColumns];
 
+// What passes over strips' left ends, and the last ones' right; and over texels' lower edges, and the last ones' upper.
+const int kEnds = kStrips + 1;
+shared int flow_x[kTileSize * kEnds];
+shared ivec4 flow_y[(kTileSize + 1) * kStrips];
+
+shared ivec4 summands[kLanes];
 shared int most_pl, giver; // of what texels offer to the drops; the first that offers so much
 shared int drained_pl, blown_pl;
 
-bool stirs(ivec2 tile, ivec2 last) {
-  tile = clamp(tile, ivec2(0), last);
-  return states[tile.y * tilesAcross() + tile.x].stirs[turn] != 0;
+bool stirs(ivec2 at, ivec2 last) {
+  at = clamp(at, ivec2(0), last);
+  return states[at.y * acrossTiles() + at.x].stirs[turn] != 0;
 }
 
-bool wakes(ivec2 tile) {
-  ivec2 last = ivec2(tilesAcross(), count / tilesAcross()) - 1;
-  return stirs(tile, last) || stirs(tile + ivec2(-1, 0), last) || stirs(tile + ivec2(1, 0), last) || stirs(tile + ivec2(0, -1), last) ||
-         stirs(tile + ivec2(0, 1), last);
+bool wakes() {
+  ivec2 last = (ivec2(info.columns, info.rows) - 1) / kTileSize;
+  return stirs(tile(), last) || stirs(tile() + ivec2(-1, 0), last) || stirs(tile() + ivec2(1, 0), last) || stirs(tile() + ivec2(0, -1), last) ||
+         stirs(tile() + ivec2(0, 1), last);
 }
 
 void tell(int t, FilmTile told) {
-  int at = t * kFields;
-  report[at] = told.event_texel;
-  report[at + 1] = told.event_pl;
-  report[at + kFilmLow] = int(told.film_low_pl);
-  report[at + kFilmHigh] = int(told.film_high);
-  report[at + 4] = told.drained_pl;
-  report[at + 5] = told.blown_pl;
-  report[at + 6] = told.evaporated_pl;
-  report[at + kBeadsPl] = int(told.beads_pl);
+  report[2 * t] = ivec4(told.event_texel, told.event_pl, int(told.film_low_pl), int(told.film_high));
+  report[2 * t + 1] = ivec4(told.drained_pl, told.blown_pl, told.evaporated_pl, int(told.beads_pl));
 }
 
 int driedPl(int t) { return driesNow(uint(t), info) ? states[t].dried_pl : 0; }
@@ -66,54 +72,58 @@ void sleep(int t) {
 }
 
 void tellRidges() {
-  const int kPieces = kMaxGlassWipers * kBladeSegments;
-  for (int k = lane(); k < kPieces; k += kTileTexels) {
-    report[ridges_at + k] = ridge_pl[k];
-    report[ridges_at + kPieces + k] = int(thrown_pl[k]);
+  const int kFours = kMaxGlassWipers * kBladeSegments / 4;
+  for (int k = lane(); k < kFours; k += kLanes) {
+    report[ridges_at / 4 + k] = ivec4(ridge_pl[4 * k], ridge_pl[4 * k + 1], ridge_pl[4 * k + 2], ridge_pl[4 * k + 3]);
+    report[ridges_at / 4 + kFours + k] = ivec4(thrown_pl[4 * k], thrown_pl[4 * k + 1], thrown_pl[4 * k + 2], thrown_pl[4 * k + 3]);
   }
 }
 
-void loadColumn(ivec2 tile, int k) {
-  int x = k % kCellRow - 1, edge = k / kCellRow;
-  int left = (tile.y + edge - 1) * (tilesAcross() + 1) + tile.x + (x >> 4);
+// A texel's place between the edges of its tile.
+float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
+
+void loadColumn(int k) {
+  int x = k % kColumns - 1, edge = k / kColumns;
+  int left = (tile().y + edge - 1) * (acrossTiles() + 1) + tile().x + (x >> 4);
   column_metric[k] = between(imageLoad(metric, left), imageLoad(metric, left + 1), fraction(x));
   column_drive[k] = between(imageLoad(drive, left), imageLoad(drive, left + 1), fraction(x));
 }
 
-void loadCodes(ivec2 tile, int row) {
-  uvec4 own = imageLoad(glass, (tile.y * kTileSize + row - 1) * tilesAcross() + tile.x);
-  for (int s = 0; s < kStrips; ++s) codes[row * kStrips + s] = own[s];
+void loadStrip(int row, int column) { film[seenAt(row, column)] = imageLoad(before, stripIn(row, column)); }
+
+// Of what is about the tile: the rows first, then the strips on both sides.
+void loadAbout(int k) {
+  const int kInRows = 2 * kRowsAbout * kSeenStrips;
+  if (k < kInRows) {
+    int row = k / kSeenStrips;
+    loadStrip(row < kRowsAbout ? row - kRowsAbout : kTileSize + row - kRowsAbout, k % kSeenStrips - 1);
+  } else if (k < kInRows + 2 * kTileSize) {
+    loadStrip((k - kInRows) >> 1, (k & 1) == 0 ? -1 : kStrips);
+  }
 }
 
-void loadStrip(ivec2 tile, int k) {
-  int row = k / kSeenStrips, column = k % kSeenStrips;
-  ivec4 own = imageLoad(before, (tile.y * kTileSize + row - kAbout) * tilesAcross() * kStrips + tile.x * kStrips + column - 1);
-  for (int i = 0; i < kStripSize; ++i) film[row * kSeenRow + column * kStripSize + i] = own[i];
-}
-
-// Each by invocations that have nothing else to load.
-void load(ivec2 tile) {
-  const int kColumns = kEdges * kCellRow, kCodesFrom = 96, kStripsFrom = 128;
+void load(int row, int column) {
   if (lane() == 0) {
     most_pl = drained_pl = blown_pl = 0;
-    giver = kTileTexels;
+    giver = kTileSize * kTileSize;
   }
-  if (lane() < kColumns) loadColumn(tile, lane());
-  else if (lane() >= kStripsFrom && lane() < kStripsFrom + kSeenRows * kSeenStrips) loadStrip(tile, lane() - kStripsFrom);
-  else if (lane() >= kCodesFrom && lane() < kCodesFrom + kCellRow) loadCodes(tile, lane() - kCodesFrom);
+  loadStrip(row, column);
+  loadAbout(lane());
+  for (int k = lane(); k < kEdges * kColumns; k += kLanes) loadColumn(k);
 }
+
+int lowerEdge(ivec2 at) { return ((at.y >> 4) + 1) * kColumns + at.x + 1; }
 
 vec4 metricAt(ivec2 at) {
-  int low = ((at.y >> 4) + 1) * kCellRow + at.x + 1;
-  return between(column_metric[low], column_metric[low + kCellRow], fraction(at.y));
+  int low = lowerEdge(at);
+  return between(column_metric[low], column_metric[low + kColumns], fraction(at.y));
 }
 
-FilmCell workedOut(ivec2 at, vec4 metric_here) {
-  int low = ((at.y >> 4) + 1) * kCellRow + at.x + 1, s = clamp(at.x >> 2, 0, kStrips - 1), seen = seenAt(at);
-  vec4 drive_here = between(column_drive[low], column_drive[low + kCellRow], fraction(at.y));
-  FilmAround around = filmAround(film[seen], film[seen - 1], film[seen + 1], film[seen - kSeenRow], film[seen + kSeenRow]);
-  int level = glassLevel(codes[(at.y + 1) * kStrips + s], at.x - s * kStripSize);
-  FilmCell cell = filmCell(film[seen], around, level, drive_here, metric_here, info);
+FilmCell workedOut(ivec2 at, int volume_pl, FilmAround around, uint code, vec4 metric_here) {
+  int low = lowerEdge(at);
+  vec4 drive_here = between(column_drive[low], column_drive[low + kColumns], fraction(at.y));
+  int level = glassLevel(code, at.x - clamp(at.x >> 2, 0, kStrips - 1) * kStripSize);
+  FilmCell cell = filmCell(volume_pl, around, level, drive_here, metric_here, info);
   cell_states[cellAt(at)] = vec4(cell.h_m, cell.hollowness, cell.slack, cell.entry_m);
   cell_wishes[cellAt(at)] = ivec4(cell.x_pl, cell.y_pl, cell.x_both_pl, cell.y_both_pl);
   return cell;
@@ -122,32 +132,30 @@ FilmCell workedOut(ivec2 at, vec4 metric_here) {
 FilmCell known(ivec2 at) {
   vec4 is = cell_states[cellAt(at)];
   ivec4 wish = cell_wishes[cellAt(at)];
-  return FilmCell(film[seenAt(at)], is.x, wish.x, wish.y, wish.z, wish.w, is.y, is.z, float(max(abs(wish.x), abs(wish.y))), is.w);
+  return FilmCell(filmAt(at), is.x, wish.x, wish.y, wish.z, wish.w, is.y, is.z, float(max(abs(wish.x), abs(wish.y))), is.w);
 }
 
 int alongX(FilmCell a, FilmCell b) { return flowBetween_pl(a, a.x_pl, a.x_both_pl, b, b.x_pl, b.x_both_pl, info); }
 int alongY(FilmCell a, FilmCell b) { return flowBetween_pl(a, a.y_pl, a.y_both_pl, b, b.y_pl, b.y_both_pl, info); }
-int edgeX(ivec2 at) { return at.y * (kTileSize + 1) + at.x; }
-int edgeY(ivec2 at) { return at.y * kTileSize + at.x; }
 
-// Those beside the tile, by the first invocations.
-void workOutBeside() {
-  int k = lane() % kTileSize, side = lane() / kTileSize;
-  if (side >= 4) return;
-  int beyond = (side & 1) == 0 ? -1 : kTileSize;
-  ivec2 at = side < 2 ? ivec2(beyond, k) : ivec2(k, beyond);
-  workedOut(at, metricAt(at));
+// One of the texels beside the tile for each invocation.
+ivec2 beside() {
+  int k = lane() % kTileSize, side = lane() / kTileSize, beyond = (side & 1) == 0 ? -1 : kTileSize;
+  return side < 2 ? ivec2(beyond, k) : ivec2(k, beyond);
 }
 
-// Over the tile's left and lower edges, by the last invocations.
+uint codeAt(ivec2 at) { return imageLoad(glass, (tile().y * kTileSize + at.y) * acrossTiles() + tile().x)[clamp(at.x >> 2, 0, kStrips - 1)]; }
+
+void workOutBeside(ivec2 at, uint code) {
+  FilmAround around = filmAround(filmAt(at), filmAt(at - ivec2(1, 0)), filmAt(at + ivec2(1, 0)), filmAt(at - ivec2(0, 1)), filmAt(at + ivec2(0, 1)));
+  workedOut(at, filmAt(at), around, code, metricAt(at));
+}
+
+// Over the tile's left and lower edges, by the first invocations.
 void flowIn() {
-  int k = lane() - (kTileTexels - 2 * kTileSize);
-  if (k < 0) return;
-  bool left = k < kTileSize;
-  ivec2 at = left ? ivec2(0, k) : ivec2(k - kTileSize, 0);
-  FilmCell from = known(left ? at - ivec2(1, 0) : at - ivec2(0, 1)), to = known(at);
-  if (left) flow_x[edgeX(at)] = alongX(from, to);
-  else flow_y[edgeY(at)] = alongY(from, to);
+  int k = lane() % kTileSize, side = lane() / kTileSize;
+  if (side == 0) flow_x[k * kEnds] = alongX(known(ivec2(-1, k)), known(ivec2(0, k)));
+  if (side == 1) flow_y[k >> 2][k & 3] = alongY(known(ivec2(k, -1)), known(ivec2(k, 0)));
 }
 
 // Over an edge that looks up it is blown off, over others it drains.
@@ -157,58 +165,118 @@ void leavePane(int volume_pl, vec2 outward) {
   else atomicAdd(drained_pl, volume_pl);
 }
 
-FilmTexel flowed(ivec2 at, FilmCell me, vec4 metric_here, Beads lying) {
-  int left = flow_x[edgeX(at)], right = flow_x[edgeX(at + ivec2(1, 0))], below = flow_y[edgeY(at)], above = flow_y[edgeY(at + ivec2(0, 1))];
-  bool on = me.volume_pl >= 0;
+// What passes over a texel's edges, and who is beyond them.
+struct Passing { int left_pl, right_pl, below_pl, above_pl; };
+
+FilmTexel flowed(int volume_pl, Passing over, Passing beyond, uint lay, vec4 metric_here) {
+  bool on = volume_pl >= 0;
   if (on) {
-    int seen = seenAt(at);
-    if (film[seen - 1] < 0) leavePane(-left, vec2(-1.0, 0.0));
-    if (film[seen + 1] < 0) leavePane(right, vec2(1.0, 0.0));
-    if (film[seen - kSeenRow] < 0) leavePane(-below, vec2(0.0, -1.0));
-    if (film[seen + kSeenRow] < 0) leavePane(above, vec2(0.0, 1.0));
+    if (beyond.left_pl < 0) leavePane(-over.left_pl, vec2(-1.0, 0.0));
+    if (beyond.right_pl < 0) leavePane(over.right_pl, vec2(1.0, 0.0));
+    if (beyond.below_pl < 0) leavePane(-over.below_pl, vec2(0.0, -1.0));
+    if (beyond.above_pl < 0) leavePane(over.above_pl, vec2(0.0, 1.0));
   }
-  int volume = me.volume_pl + passed(kFlow, left) - right + passed(kFlow, below) - above;
-  FilmTexel now = settled(on ? volume : -1, lying, metric_here, info);
+  int volume = volume_pl + passed(kFlow, over.left_pl) - over.right_pl + passed(kFlow, over.below_pl) - over.above_pl;
+  FilmTexel now = settled(on ? volume : -1, beadsOf(lay), metric_here, info);
   now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
   return now;
 }
 
 // One texel of a tile gives to the drops: the one with most, the first of those.
-FilmTexel given(FilmTexel now) {
-  if (now.gone_pl > 0) atomicMax(most_pl, now.gone_pl);
-  barrier();
-  if (now.gone_pl > 0 && now.gone_pl == most_pl) atomicMin(giver, lane());
-  barrier();
-  if (lane() == giver) now = without(now, now.gone_pl);
-  return now;
+int offerOf(FilmTexel now[kStripSize]) {
+  int most = 0;
+  for (int i = 0; i < kStripSize; ++i) most = max(most, now[i].gone_pl);
+  return most;
 }
 
-void flow(int t, ivec2 tile, bool awake) {
-  ivec2 at = laneAt();
-  int place = placeIn(tile, at);
-  uint lay = beads[place];
-  load(tile);
+void give(inout FilmTexel now[kStripSize], int first) {
+  int offer_pl = offerOf(now);
+  if (offer_pl > 0) atomicMax(most_pl, offer_pl);
   barrier();
-  vec4 metric_here = metricAt(at);
-  FilmCell me = workedOut(at, metric_here);
-  workOutBeside();
+  if (most_pl == 0) return; // the same for all
+  for (int i = kStripSize - 1; i >= 0; --i) {
+    if (now[i].gone_pl == most_pl) atomicMin(giver, first + i);
+  }
   barrier();
-  flow_x[edgeX(at + ivec2(1, 0))] = alongX(me, known(at + ivec2(1, 0)));
-  flow_y[edgeY(at + ivec2(0, 1))] = alongY(me, known(at + ivec2(0, 1)));
+  for (int i = 0; i < kStripSize; ++i) {
+    if (giver == first + i) now[i] = without(now[i], now[i].gone_pl);
+  }
+}
+
+// As a tile tells it: low and high part of its film, its beads; and whether any stirs.
+ivec4 toldOf(FilmTexel now) {
+  int whole = max(now.film_pl, 0);
+  return ivec4(whole & 0xffff, whole >> 16, now.beads.volume_pl, now.stirs);
+}
+
+// The group's sum, for its first invocation. In two stages: with atomics all would wait for one address.
+ivec4 summed(ivec4 own) {
+  const int kStage = 8;
+  summands[lane()] = own;
+  barrier();
+  if (lane() < kStage) {
+    for (int k = lane() + kStage; k < kLanes; k += kStage) own += summands[k];
+    summands[lane()] = own;
+  }
+  barrier();
+  if (lane() == 0) {
+    for (int k = 1; k < kStage; ++k) own += summands[k];
+  }
+  return own;
+}
+
+void flow(int t, bool awake) {
+  int row = lane() / kStrips, column = lane() % kStrips, strip = stripIn(row, column);
+  ivec2 at = ivec2(column * kStripSize, row), next_to = beside();
+  uint code = codeAt(at), code_beside = codeAt(next_to);
+  uvec4 lay = imageLoad(lying, strip);
+  load(row, column);
+  barrier();
+
+  int seen = seenAt(row, column);
+  ivec4 own = film[seen], below = film[seen - kSeenStrips], above = film[seen + kSeenStrips];
+  int left = film[seen - 1].w, right = film[seen + 1].x;
+  vec4 metric_here[kStripSize];
+  FilmCell me[kStripSize];
+  for (int i = 0; i < kStripSize; ++i) {
+    ivec2 here = at + ivec2(i, 0);
+    metric_here[i] = metricAt(here);
+    FilmAround around = filmAround(own[i], i > 0 ? own[max(i - 1, 0)] : left, i < 3 ? own[min(i + 1, 3)] : right, below[i], above[i]);
+    me[i] = workedOut(here, own[i], around, code, metric_here[i]);
+  }
+  workOutBeside(next_to, code_beside);
+  barrier();
+
+  ivec4 to_right, to_above;
+  for (int i = 0; i < kStripSize; ++i) {
+    if (i + 1 < kStripSize) to_right[i] = alongX(me[i], me[min(i + 1, 3)]);
+    else to_right[i] = alongX(me[i], known(at + ivec2(kStripSize, 0)));
+    to_above[i] = alongY(me[i], known(at + ivec2(i, 1)));
+  }
+  flow_x[row * kEnds + column + 1] = to_right.w;
+  flow_y[(row + 1) * kStrips + column] = to_above;
   flowIn();
   barrier();
-  FilmTexel now = flowed(at, me, metric_here, beadsOf(lay));
+
+  ivec4 from_below = flow_y[row * kStrips + column], from_left = ivec4(flow_x[row * kEnds + column], to_right.xyz);
+  ivec4 beyond_left = ivec4(left, own.xyz), beyond_right = ivec4(own.yzw, right);
+  FilmTexel now[kStripSize];
   // Asleep next time only if neighbours, too, have seen it lie still.
-  int stirs = now.stirs | int(me.h_m >= info.pin_m);
-  now = given(now);
-  after[place] = now.film_pl;
-  uint lie = packedBeads(now.beads);
-  if (lie != lay) beads[place] = lie;
-  ivec4 sum = summed(ivec4(toldOf(now.film_pl, now.beads.volume_pl), stirs));
+  int stirred = 0;
+  for (int i = 0; i < kStripSize; ++i) {
+    now[i] = flowed(own[i], Passing(from_left[i], to_right[i], from_below[i], to_above[i]), Passing(beyond_left[i], beyond_right[i], below[i], above[i]),
+                    lay[i], metric_here[i]);
+    stirred |= int(me[i].h_m >= info.pin_m);
+  }
+  give(now, row * kTileSize + at.x);
+  after[strip] = ivec4(now[0].film_pl, now[1].film_pl, now[2].film_pl, now[3].film_pl);
+  uvec4 lie = uvec4(packedBeads(now[0].beads), packedBeads(now[1].beads), packedBeads(now[2].beads), packedBeads(now[3].beads));
+  if (lie != lay) beads[strip] = lie;
+  ivec4 sum = summed(toldOf(now[0]) + toldOf(now[1]) + toldOf(now[2]) + toldOf(now[3]) + ivec4(0, 0, 0, stirred));
   if (lane() != 0) return;
-  bool gives = giver < kTileTexels;
-  tell(t, FilmTile(gives ? texelOf(tile, ivec2(giver % kTileSize, giver / kTileSize)) : -1, gives ? most_pl : 0, uint(sum.x), uint(sum.y), drained_pl,
-                   blown_pl, driedPl(t), uint(sum.z)));
+  bool gives = most_pl > 0;
+  ivec2 given_at = tile() * kTileSize + ivec2(giver % kTileSize, giver / kTileSize);
+  tell(t, FilmTile(gives ? given_at.y * info.columns + given_at.x : -1, most_pl, uint(sum.x), uint(sum.y), drained_pl, blown_pl, driedPl(t), uint(sum.z)));
   states[t].awake = int(awake);
   states[t].stirs[1 - turn] = int(sum.w != 0);
   states[t].last[kFilmLow] = sum.x;
@@ -217,14 +285,12 @@ void flow(int t, ivec2 tile, bool awake) {
 }
 
 void main() {
-  int t = int(groupInRows());
-  if (t > count) return;
-  if (t == count) {
-    tellRidges();
+  int t = tile().y * acrossTiles() + tile().x;
+  if (tile().y * kTileSize >= info.rows) {
+    if (tile().x == 0) tellRidges();
     return;
   }
-  ivec2 tile = tileAt(t);
-  bool awake = wakes(tile);
-  if (awake || states[t].awake != 0) flow(t, tile, awake);
+  bool awake = wakes();
+  if (awake || states[t].awake != 0) flow(t, awake);
   else sleep(t);
 }

@@ -24,8 +24,8 @@ void tellLeak(const GladGLContext& gl, const gl::Program& program, FilmKernel le
 }
 
 template <typename T>
-void put(std::vector<unsigned char>& bytes, size_t at, const T* data, size_t count) {
-  if (count > 0) std::memcpy(bytes.data() + at, data, count * sizeof(T));
+void put(unsigned char* to, const T* data, size_t count) {
+  if (count > 0) std::memcpy(to, data, count * sizeof(T));
 }
 
 // As glassLevel reads them, in rows of whole tiles. Past the grid's edges there is none to ask.
@@ -96,13 +96,16 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       metric_(gl, std::span<const shared::vec4>(map.nodeMetric())),
       glass_(gl, std::span<const uint32_t>(stripCodes(map, glass))),
       metric_nodes_(gl),
-      drive_nodes_(gl),
       glass_strips_(gl),
+      drive_(gl, map.nodeMetric().size() * sizeof(shared::vec4), 0),
+      drive_nodes_(gl),
+      ordered_drive_nodes_(gl),
       picture_(gl, GL_R32I, map.grid().size.x, map.grid().size.y),
       beads_picture_(gl, GL_R32UI, map.grid().size.x, map.grid().size.y),
       change_of_(static_cast<size_t>(map.texelCount()), -1),
       thrown_before_pl_(kRidgePieces, 0) {
   metric_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), metric_, 0, metric_.bytes());
+  drive_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), drive_, 0, drive_.bytes());
   glass_strips_.show(GL_RGBA32UI, shared::kTileSize / shared::kStripSize * sizeof(uint32_t), glass_, 0,
                      glass_.bytes());
   for (size_t i = 0; i < film_.size(); ++i) {
@@ -135,7 +138,8 @@ void FilmGl::clear() {
   picture_is_old_ = beads_picture_is_old_ = true;
 }
 
-// Orders of up to kStepsInBatch steps, uploaded.
+// Orders of up to kStepsInBatch steps, where the GPU reads them: a copy of them would be one more thing that
+// its kernels wait for.
 std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
   std::vector<Step> steps;
   size_t bytes = 0, report_bytes = 0;
@@ -144,7 +148,7 @@ std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
     bytes += UploadLayout(order).bytes;
     report_bytes += ReportLayout(tiles_, order.takes.size()).bytes;
   }
-  std::vector<unsigned char> upload(bytes);
+  begun_ = freeBatch(bytes, report_bytes);
   for (Step& step : steps) {
     const FilmOrder& order = *step.order;
     const UploadLayout at(order);
@@ -153,17 +157,15 @@ std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
     if (!programs_->by_lists) firsts = sortByDrying(changes, DryingTiles(order.info));
     step.changes = changes.size();
     step.elsewhere = firsts.empty() ? changes.size() : static_cast<size_t>(firsts.front());
-    const size_t start = step.upload_at;
-    put(upload, start + at.info, &order.info, 1);
-    put(upload, start + at.drive, order.drive.data(), order.drive.size());
-    put(upload, start + at.changes, changes.data(), changes.size());
-    put(upload, start + at.firsts, firsts.data(), firsts.size());
-    put(upload, start + at.ranges, order.sweep_ranges.data(), order.sweep_ranges.size());
-    put(upload, start + at.leaves, order.leaves.data(), order.leaves.size());
-    put(upload, start + at.texels, order.leave_texels.data(), order.leave_texels.size());
+    unsigned char* start = begun_->orders + step.upload_at;
+    put(start + at.info, &order.info, 1);
+    put(start + at.drive, order.drive.data(), order.drive.size());
+    put(start + at.changes, changes.data(), changes.size());
+    put(start + at.firsts, firsts.data(), firsts.size());
+    put(start + at.ranges, order.sweep_ranges.data(), order.sweep_ranges.size());
+    put(start + at.leaves, order.leaves.data(), order.leaves.size());
+    put(start + at.texels, order.leave_texels.data(), order.leave_texels.size());
   }
-  begun_ = freeBatch(bytes, report_bytes);
-  begun_->upload.write(0, upload.data(), bytes);
   return steps;
 }
 
@@ -252,7 +254,12 @@ std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes, size_t rep
     batch = std::move(free_.back());
     free_.pop_back();
   }
-  if (batch->upload.bytes() < upload_bytes) batch->upload = gl::Buffer(gl_, upload_bytes + upload_bytes / 2);
+  if (batch->upload.bytes() < upload_bytes) {
+    constexpr GLbitfield kWritten = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    const size_t bytes = upload_bytes + upload_bytes / 2;
+    batch->upload = gl::Buffer(gl_, bytes, kWritten);
+    batch->orders = static_cast<unsigned char*>(batch->upload.map(0, bytes, kWritten));
+  }
   if (batch->report.bytes() < report_bytes) {
     constexpr GLbitfield kRead = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     const size_t bytes = report_bytes + report_bytes / 2;
@@ -419,7 +426,8 @@ std::vector<uint32_t> FilmGl::tileStates(const FilmState& state) const {
 void FilmGl::abandon() {
   for (gl::Buffer& film : film_) film.forget();
   for (gl::BufferTexture& strips : film_strips_) strips.forget();
-  for (gl::BufferTexture* nodes : {&metric_nodes_, &drive_nodes_, &glass_strips_, &beads_strips_})
+  for (gl::BufferTexture* nodes :
+       {&metric_nodes_, &drive_nodes_, &ordered_drive_nodes_, &glass_strips_, &beads_strips_})
     nodes->forget();
   picture_.forget();
   beads_picture_.forget();
@@ -428,6 +436,7 @@ void FilmGl::abandon() {
   states_.forget();
   awake_.forget();
   metric_.forget();
+  drive_.forget();
   glass_.forget();
   for (Swept& swept : swept_) swept.buffer.forget();
   while (!pending_.empty()) {

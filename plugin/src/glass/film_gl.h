@@ -59,6 +59,7 @@ class FilmGl {
  private:
   struct Batch {
     gl::Buffer upload, report;
+    unsigned char* orders = nullptr;  // the upload's
     const unsigned char* mapped = nullptr;
     gl::Fence fence;
     struct Step {
@@ -105,7 +106,8 @@ class FilmGl {
   void turnOver();
   void bind(GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) const;
   void bindState(const Step& step) const;
-  void bindImages(const Step& step);
+  void showDrive(gl::BufferTexture& nodes, const Step& step) const;
+  void bindImages(const gl::BufferTexture& drive) const;
   void bindFlow(const Step& step);
   void bindBegin(const Step& step);
   void dispatch(const gl::Program& program, size_t count) const;
@@ -138,7 +140,10 @@ class FilmGl {
   gl::Buffer beads_;  // lie where they are: one copy will do
   gl::BufferTexture beads_strips_;
   gl::Buffer ridges_, states_, awake_, metric_, glass_;
-  gl::BufferTexture metric_nodes_, drive_nodes_, glass_strips_;
+  gl::BufferTexture metric_nodes_, glass_strips_;
+  gl::Buffer
+      drive_;  // what drives the film in a step, brought to the GPU's own memory: every tile asks for it
+  gl::BufferTexture drive_nodes_, ordered_drive_nodes_;
   gl::Texture2D picture_, beads_picture_;
   bool picture_is_old_ = true, beads_picture_is_old_ = true;
   std::vector<int> change_of_;  // texel: its place among a step's changes, -1 between steps
@@ -147,7 +152,7 @@ class FilmGl {
   std::deque<std::unique_ptr<Batch>> pending_;
   std::vector<std::unique_ptr<Batch>> free_;
   std::vector<uint32_t> thrown_before_pl_;  // by each piece, as last read
-  bool ridged_ = false;        // a blade had something to do with it
+  bool ridged_ = false;                     // a blade had something to do with it
   bool dry_ = true;            // no water on it or in a ridge, as of the last report after it was given some
   int64_t watered_step_ = -1;  // the last that gave it some
 };

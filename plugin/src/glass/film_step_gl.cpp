@@ -126,20 +126,20 @@ namespace {
 
 bool hasBlades(const FilmOrder& order) { return !order.sweeps.empty() || !order.leaves.empty(); }
 
-size_t groupsFor(size_t changes) { return (changes + kTileTexels - 1) / kTileTexels; }
+size_t groupsFor(size_t invocations) { return (invocations + kTileTexels - 1) / kTileTexels; }
 
 }  // namespace
 
-// Changes; and tiles dry, unless a blade has to pass before.
+// What drives the film is brought; changes; and tiles dry, unless a blade has to pass before.
 bool FilmGl::changeAndDry(const Step& step) {
   const bool dries = !hasBlades(*step.order);
   const size_t drying = dries ? DryingTiles(step.order->info).count : 0,
-               elsewhere = dries ? step.elsewhere : step.changes;
-  if (drying + elsewhere == 0) return false;
+               elsewhere = dries ? step.elsewhere : step.changes, nodes = step.order->drive.size();
   bindBegin(step);
   programs_->begin.set(2, static_cast<int32_t>(drying));
   programs_->begin.set(3, 1);
-  dispatchGroups(programs_->begin, elsewhere, drying + groupsFor(elsewhere));
+  programs_->begin.set(4, static_cast<int32_t>(nodes));
+  dispatchGroups(programs_->begin, elsewhere, groupsFor(nodes) + drying + groupsFor(elsewhere));
   return true;
 }
 
@@ -149,19 +149,23 @@ bool FilmGl::dryAfterBlades(const Step& step) {
   bindBegin(step);
   programs_->begin.set(2, static_cast<int32_t>(drying));
   programs_->begin.set(3, 0);
+  programs_->begin.set(4, 0);
   dispatchGroups(programs_->begin, 0, drying);
   return true;
 }
 
-// A group for each tile, and one that tells of the ridges.
+// A group for each tile, and a row of which one tells of the ridges.
 bool FilmGl::flowOverTiles(const Step& step) {
   const ReportLayout report(tiles_, step.order->takes.size());
   bindState(step);
-  bindImages(step);
+  bindImages(drive_nodes_);
   bind(2, begun_->report, step.report_at, report.taken);
   bind(3, film_[1 - turn_], 0, film_[1 - turn_].bytes());
   programs_->tile.set(2, static_cast<int32_t>(report.ridges / sizeof(int)));
-  dispatchGroups(programs_->tile, tiles_, tiles_ + (ridged_ ? 1 : 0));
+  programs_->tile.set(1, static_cast<int32_t>(turn_));
+  programs_->tile.use();
+  gl_.DispatchCompute(static_cast<GLuint>(map_.tileCount().x),
+                      static_cast<GLuint>(map_.tileCount().y + (ridged_ ? 1 : 0)), 1);
   return true;
 }
 
@@ -175,7 +179,10 @@ void FilmGl::bindBegin(const Step& step) {
   bind(4, begun_->upload, step.upload_at + upload.firsts,
        (DryingTiles(step.order->info).count + 1) * sizeof(int));
   bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
+  showDrive(ordered_drive_nodes_, step);
   gl_.BindImageTexture(1, metric_nodes_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
+  gl_.BindImageTexture(2, ordered_drive_nodes_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
+  gl_.BindImageTexture(3, drive_nodes_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
 }
 
 bool FilmGl::change(const Step& step) {
@@ -249,23 +256,27 @@ void FilmGl::turnOver() {
   picture_is_old_ = beads_picture_is_old_ = true;
 }
 
-void FilmGl::bindImages(const Step& step) {
+void FilmGl::showDrive(gl::BufferTexture& nodes, const Step& step) const {
+  nodes.show(GL_RGBA32F, sizeof(shared::vec4), begun_->upload,
+             step.upload_at + UploadLayout(*step.order).drive,
+             step.order->drive.size() * sizeof(shared::vec4));
+}
+
+void FilmGl::bindImages(const gl::BufferTexture& drive) const {
   const auto image = [&](GLuint unit, const gl::BufferTexture& texture, GLenum format) {
     gl_.BindImageTexture(unit, texture.name(), 0, GL_FALSE, 0, GL_READ_ONLY, format);
   };
-  drive_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), begun_->upload,
-                    step.upload_at + UploadLayout(*step.order).drive,
-                    step.order->drive.size() * sizeof(shared::vec4));
   image(0, film_strips_[turn_], GL_RGBA32I);
   image(1, metric_nodes_, GL_RGBA32F);
-  image(2, drive_nodes_, GL_RGBA32F);
+  image(2, drive, GL_RGBA32F);
   image(3, beads_strips_, GL_RGBA32UI);
   image(4, glass_strips_, GL_RGBA32UI);
 }
 
 void FilmGl::bindFlow(const Step& step) {
   bindState(step);
-  bindImages(step);
+  showDrive(ordered_drive_nodes_, step);
+  bindImages(ordered_drive_nodes_);
   bind(2, begun_->report, step.report_at, tiles_ * sizeof(shared::FilmTile));
   bind(4, awake_, 0, awake_.bytes());
   bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
