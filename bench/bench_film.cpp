@@ -153,7 +153,7 @@ class Copy {
   Copy(const GladGLContext& gl, const glass::PaneMap& map, bool software)
       : gl_(gl),
         tiles_(map.tileCount()),
-        tiles_in_group_(software ? 8 : 1),  // as film_lists.glsl and film_tile.glsl have it
+        tiles_in_group_(software ? 8 : 1),  // as film_lists.glsl and film_tile.comp have it
         program_(gl, {"copy.comp"},
                  software ? std::vector<std::string>{"RG_SOFTWARE_GL"} : std::vector<std::string>{}, source),
         from_(gl, bytes(map)),

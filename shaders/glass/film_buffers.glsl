@@ -14,7 +14,6 @@ const int kFields = 8, kFilmLow = 2, kFilmHigh = 3, kBeadsPl = 7; // of FilmTile
 struct TileState {
   int stirs[2]; // holds water that may flow, or was changed from outside: as this turn's kernels ask, and as they tell the next
   int awake; // in the last step
-  int dried_pl; // in its last turn to dry
   int last[kFields]; // its last report
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };

@@ -1,5 +1,6 @@
-// Tiles whose turn it is dry, and film on them breaks up: invocations walk over strips, kWalkRows rows each. Before the flow; those asleep stay so, which
-// is why the film's other copy is written too. Apart from the flow, as software GL runs through branches that nobody takes.
+// Tiles whose turn it is dry, and film on them breaks up: invocations walk over strips, kWalkRows rows each. After the flow, as it left the film; those
+// asleep stay so, and nothing brings one copy of their film to the other, so both are written. Apart from the flow, as software GL runs through branches
+// that nobody takes.
 #include "glass/film_lists.glsl"
 layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // the film's buffer below
@@ -71,9 +72,11 @@ void main() {
   barrier();
   if (!here || lane != 0) return;
   Left left = left_on[tile_in_group];
-  states[t].dried_pl = left.dried_pl;
   states[t].last[kFilmLow] = int(left.film_low_pl);
   states[t].last[kFilmHigh] = int(left.film_high);
   states[t].last[kBeadsPl] = int(left.beads_pl);
-  tiles[t] = FilmTile(-1, 0, left.film_low_pl, left.film_high, 0, 0, left.dried_pl, left.beads_pl);  // the flow knows better where it comes
+  tiles[t].film_low_pl = left.film_low_pl;
+  tiles[t].film_high = left.film_high;
+  tiles[t].evaporated_pl = left.dried_pl;
+  tiles[t].beads_pl = left.beads_pl;
 }

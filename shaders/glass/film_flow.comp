@@ -272,7 +272,7 @@ void report(int t, ivec2 tile, int lane, Offering own) {
   }
   int texel = given ? (tile.y * kTileSize + at / kTileSize) * info.columns + tile.x * kTileSize + at % kTileSize : -1;
   int known[kFields] = int[kFields](texel, given_pl, (left.film_pl & 0xffff) - (had.film_pl & 0xffff), (left.film_pl >> 16) - (had.film_pl >> 16), 0, 0,
-                                    driesNow(uint(t), info) ? states[t].dried_pl : 0, left.beads.volume_pl - had.beads.volume_pl);
+                                    0, left.beads.volume_pl - had.beads.volume_pl);
   for (int field = lane; field < kFields; field += kWalks) {
     int sum = known[field];
     for (int k = first; field > 1 && k < first + kWalks; ++k) sum += toldBy(k, field);

@@ -1,5 +1,5 @@
 // What the kernels share that work by lists of tiles: those for software GL, which is slow where nobody has anything to do. A GPU is not, but waits long
-// between a kernel and the next: glass/film_begin.comp and glass/film_tile.comp are for it.
+// between a kernel and the next: glass/film_tile.comp is for it.
 #include "glass/film_buffers.glsl"
 
 // How many tiles a step looks at, and the command for as many groups as they need.

@@ -1,296 +1,309 @@
-// The film step of glass/film_flow.comp for GPUs: a group is a tile, an invocation a strip of it, whose texels' laws are worked out side by side. Groups
-// hear of each other's nothing and of their own through shared memory, so that a texel's law is worked out 1.25 times, a face's flow once, and what all
-// do but once a group or an invocation is shared by many texels. A group finds out by itself whether its tile is awake, and one more tells of the ridges:
-// nothing goes before but what changes the film.
+// For GPUs all that a film step does after what changes the film and blades, as glass/film_flow.comp and glass/film_dry.comp have it: a group is a tile,
+// an invocation a texel of it, which works out its own law and hears of others through shared memory; so a law is worked out 1.25 times, a face's flow
+// once. A group finds out by itself whether its tile is awake or to dry, and one more tells of the ridges, as a kernel that waits for another costs more
+// than groups with nothing to do.
+//
+// How fast it is hangs on how many groups a processor holds, and that on how little shared memory one needs: of an NVIDIA H200's 228 KiB OpenGL gives 48
+// to a processor (with 21 KiB a group two are held, with 11 four, in 0.7 of the time). So words are used again where they can be.
 #include "glass/film_buffers.glsl"
-const int kLanes = kStrips * kTileSize;
-layout(local_size_x = kLanes) in;
-layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
-layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
-layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
-layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // the beads' buffer below
-layout(rgba32ui, binding = 4) readonly uniform uimageBuffer glass; // a code for each strip of a tile's row
+const int kTileTexels = kTileSize * kTileSize;
+layout(local_size_x = kTileTexels) in;
+layout(r32ui, binding = 4) readonly uniform uimageBuffer glass; // a code for each strip of a tile's row
+layout(std430, binding = 0) readonly buffer Metric { vec4 metric[]; }; // of the corners of tiles
 layout(std430, binding = 2) writeonly buffer Report { ivec4 report[]; }; // FilmTile of each tile, and the ridges
-layout(std430, binding = 3) writeonly buffer After { ivec4 after[]; };
-layout(std430, binding = 6) writeonly buffer Lying { uvec4 beads[]; };
+layout(std430, binding = 3) writeonly buffer After { int after[]; };
+layout(std430, binding = 4) readonly buffer Drive { vec4 drive[]; };
+layout(std430, binding = 6) buffer Lying { uint beads[]; };
+layout(std430, binding = 7) buffer Before { int before[]; };
 layout(location = 2) uniform int ridges_at; // in the report
 
-ivec2 tile() { return ivec2(gl_WorkGroupID.xy); }
-int acrossTiles() { return int(gl_NumWorkGroups.x); } // the last row of groups has no tiles
 int lane() { return int(gl_LocalInvocationIndex); }
-int stripIn(int row, int column) { return ((tile().y * kTileSize + row) * acrossTiles() + tile().x) * kStrips + column; }
+ivec2 laneAt() { return ivec2(gl_LocalInvocationIndex % uint(kTileSize), gl_LocalInvocationIndex / uint(kTileSize)); }
+ivec2 tile() { return ivec2(gl_WorkGroupID.xy); }
+ivec2 tiles() { return ivec2(gl_NumWorkGroups.x, (uint(info.rows) + uint(kTileSize) - 1u) / uint(kTileSize)); }
+int texelOf(ivec2 at) { return (tile().y * kTileSize + at.y) * info.columns + tile().x * kTileSize + at.x; }
+int placeIn(ivec2 at) { return ((tile().y * kTileSize + at.y) * tiles().x + tile().x) * kTileSize + at.x; }
 
-// The tile's film and what is about it: two rows, and a strip on either side.
-const int kRowsAbout = 2, kSeenStrips = kStrips + 2, kSeenRows = kTileSize + 2 * kRowsAbout;
-shared ivec4 film[kSeenRows * kSeenStrips];
-int seenAt(int row, int column) { return (row + kRowsAbout) * kSeenStrips + column + 1; }
-int filmAt(ivec2 at) { return film[seenAt(at.y, at.x >> 2)][at.x & 3]; }
+// A texel's place between the edges of its tile.
+float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
 
-// Its texels as their neighbours see them, and those beside it: strips' first, second, third and fourth each together, as invocations side by side ask
-// for them.
-const int kCellStrips = kStrips + 1, kCellRows = kTileSize + 2;
-shared vec4 cell_states[kStripSize * kCellRows * kCellStrips];  // thickness, hollowness, slack, entry
-shared ivec4 cell_wishes[kStripSize * kCellRows * kCellStrips]; // along x and y, and to both sides
-int cellAt(ivec2 at) { return ((at.x & 3) * kCellRows + at.y + 1) * kCellStrips + ((at.x + 1) >> 2); }
+// The tile's film and two texels about it, row by row from below.
+const int kAbout = 2, kSeenRow = kTileSize + 2 * kAbout;
+shared int film[kSeenRow * kSeenRow];
+int seenAt(ivec2 at) { return (at.y + kAbout) * kSeenRow + at.x + kAbout; }
 
-// Fields along the columns of texels, at four edges of tiles.
-const int kEdges = 4, kColumns = kTileSize + 2;
-shared vec4 column_metric[kEdges * kColumns], column_drive[kEdges * kColumns];
+// Its texels as their neighbours see them, and those beside it.
+const int kCellRow = kTileSize + 2, kCells = kCellRow * kCellRow;
+shared float cell_h_m[kCells], cell_hollowness[kCells];
+shared float cell_slack[kCells]; // of wet ones; of others, which have nothing to give, -entry_m
+shared int cell_pl[4 * kCells]; // along x and y, and to both sides
+const int kX = 0, kY = kCells, kXBoth = 2 * kCells, kYBoth = 3 * kCells;
+int cellAt(ivec2 at) { return (at.y + 1) * kCellRow + at.x + 1; }
 
-// What passes over strips' left ends, and the last ones' right; and over texels' lower edges, and the last ones' upper.
-const int kEnds = kStrips + 1;
-shared int flow_x[kTileSize * kEnds];
-shared ivec4 flow_y[(kTileSize + 1) * kStrips];
+// At the corners of the tile and of those beside it.
+const int kNodes = 4;
+shared vec4 node_metric[kNodes * kNodes], node_drive[kNodes * kNodes];
 
-shared ivec4 summands[kLanes];
+shared int stirring, was_awake, lies; // whether there is water on it, as its last report had it
+shared int stirs_next;
 shared int most_pl, giver; // of what texels offer to the drops; the first that offers so much
 shared int drained_pl, blown_pl;
-
-bool stirs(ivec2 at, ivec2 last) {
-  at = clamp(at, ivec2(0), last);
-  return states[at.y * acrossTiles() + at.x].stirs[turn] != 0;
-}
-
-bool wakes() {
-  ivec2 last = (ivec2(info.columns, info.rows) - 1) / kTileSize;
-  return stirs(tile(), last) || stirs(tile() + ivec2(-1, 0), last) || stirs(tile() + ivec2(1, 0), last) || stirs(tile() + ivec2(0, -1), last) ||
-         stirs(tile() + ivec2(0, 1), last);
-}
 
 void tell(int t, FilmTile told) {
   report[2 * t] = ivec4(told.event_texel, told.event_pl, int(told.film_low_pl), int(told.film_high));
   report[2 * t + 1] = ivec4(told.drained_pl, told.blown_pl, told.evaporated_pl, int(told.beads_pl));
 }
 
-int driedPl(int t) { return driesNow(uint(t), info) ? states[t].dried_pl : 0; }
-
 void sleep(int t) {
-  if (lane() != 0) return;
   states[t].awake = 0;
   states[t].stirs[1 - turn] = 0;
-  tell(t, FilmTile(-1, 0, uint(states[t].last[kFilmLow]), uint(states[t].last[kFilmHigh]), 0, 0, driedPl(t), uint(states[t].last[kBeadsPl])));
+  tell(t, FilmTile(-1, 0, uint(states[t].last[kFilmLow]), uint(states[t].last[kFilmHigh]), 0, 0, 0, uint(states[t].last[kBeadsPl])));
 }
 
 void tellRidges() {
   const int kFours = kMaxGlassWipers * kBladeSegments / 4;
-  for (int k = lane(); k < kFours; k += kLanes) {
-    report[ridges_at / 4 + k] = ivec4(ridge_pl[4 * k], ridge_pl[4 * k + 1], ridge_pl[4 * k + 2], ridge_pl[4 * k + 3]);
-    report[ridges_at / 4 + kFours + k] = ivec4(thrown_pl[4 * k], thrown_pl[4 * k + 1], thrown_pl[4 * k + 2], thrown_pl[4 * k + 3]);
+  for (int k = lane(); k < kFours; k += kTileTexels) {
+    int p = 4 * k;
+    report[ridges_at / 4 + k] = ivec4(ridge_pl[p], ridge_pl[p + 1], ridge_pl[p + 2], ridge_pl[p + 3]);
+    report[ridges_at / 4 + kFours + k] = ivec4(thrown_pl[p], thrown_pl[p + 1], thrown_pl[p + 2], thrown_pl[p + 3]);
   }
 }
 
-// A texel's place between the edges of its tile.
-float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
-
-void loadColumn(int k) {
-  int x = k % kColumns - 1, edge = k / kColumns;
-  int left = (tile().y + edge - 1) * (acrossTiles() + 1) + tile().x + (x >> 4);
-  column_metric[k] = between(imageLoad(metric, left), imageLoad(metric, left + 1), fraction(x));
-  column_drive[k] = between(imageLoad(drive, left), imageLoad(drive, left + 1), fraction(x));
+// Past the grid's edge there is no film to be seen: any will do, beyond texels that are off the pane.
+void loadFilm(ivec2 at) {
+  ivec2 from = clamp(tile() * kTileSize + at, ivec2(0), tiles() * kTileSize - 1);
+  film[seenAt(at)] = before[from.y * tiles().x * kTileSize + from.x];
 }
 
-void loadStrip(int row, int column) { film[seenAt(row, column)] = imageLoad(before, stripIn(row, column)); }
-
-// Of what is about the tile: the rows first, then the strips on both sides.
-void loadAbout(int k) {
-  const int kInRows = 2 * kRowsAbout * kSeenStrips;
+// The two rows below and above, then two columns on either side.
+ivec2 aboutTile(int k) {
+  const int kInRows = 2 * kAbout * kSeenRow;
   if (k < kInRows) {
-    int row = k / kSeenStrips;
-    loadStrip(row < kRowsAbout ? row - kRowsAbout : kTileSize + row - kRowsAbout, k % kSeenStrips - 1);
-  } else if (k < kInRows + 2 * kTileSize) {
-    loadStrip((k - kInRows) >> 1, (k & 1) == 0 ? -1 : kStrips);
+    int row = k / kSeenRow, x = k - row * kSeenRow;
+    return ivec2(x - kAbout, row < kAbout ? row - kAbout : row + kTileSize - kAbout);
   }
+  int column = (k - kInRows) & 3;
+  return ivec2(column < kAbout ? column - kAbout : column + kTileSize - kAbout, (k - kInRows) >> 2);
 }
 
-void load(int row, int column) {
-  if (lane() == 0) {
-    most_pl = drained_pl = blown_pl = 0;
-    giver = kTileSize * kTileSize;
-  }
-  loadStrip(row, column);
-  loadAbout(lane());
-  for (int k = lane(); k < kEdges * kColumns; k += kLanes) loadColumn(k);
+void loadNode(int k) {
+  ivec2 node = clamp(tile() + ivec2(k & 3, k >> 2) - 1, ivec2(0), tiles());
+  int from = node.y * (tiles().x + 1) + node.x;
+  node_metric[k] = metric[from];
+  node_drive[k] = drive[from];
 }
 
-int lowerEdge(ivec2 at) { return ((at.y >> 4) + 1) * kColumns + at.x + 1; }
+// Whether the tile or one beside it stirs.
+void lookAtState(int k) {
+  ivec2 at = tile() + ivec2(k == 1 ? -1 : k == 2 ? 1 : 0, k == 3 ? -1 : k == 4 ? 1 : 0);
+  at = clamp(at, ivec2(0), tiles() - 1);
+  if (states[at.y * tiles().x + at.x].stirs[turn] != 0) stirring = 1;
+}
 
+// Each by invocations that have the least else to load.
+void load(int t) {
+  const int kFilmAbout = kSeenRow * kSeenRow - kTileTexels, kNodesFrom = 160, kStatesFrom = 192, kAwakeAt = 224, kLastAt = 225;
+  loadFilm(laneAt());
+  int k = lane();
+  if (k < kFilmAbout) loadFilm(aboutTile(k));
+  else if (k >= kNodesFrom && k < kNodesFrom + kNodes * kNodes) loadNode(k - kNodesFrom);
+  else if (k >= kStatesFrom && k < kStatesFrom + 5) lookAtState(k - kStatesFrom);
+  else if (k == kAwakeAt) was_awake = states[t].awake;
+  else if (k == kLastAt) lies = states[t].last[kFilmLow] | states[t].last[kFilmHigh] | states[t].last[kBeadsPl];
+}
+
+int nodeAt(ivec2 at) { return ((at.y >> 4) + 1) * kNodes + (at.x >> 4) + 1; }
+vec2 betweenNodesAt(ivec2 at) { return vec2(fraction(at.x), fraction(at.y)); }
 vec4 metricAt(ivec2 at) {
-  int low = lowerEdge(at);
-  return between(column_metric[low], column_metric[low + kColumns], fraction(at.y));
+  int k = nodeAt(at);
+  return betweenNodes(node_metric[k], node_metric[k + 1], node_metric[k + kNodes], node_metric[k + kNodes + 1], betweenNodesAt(at));
+}
+vec4 driveAt(ivec2 at) {
+  int k = nodeAt(at);
+  return betweenNodes(node_drive[k], node_drive[k + 1], node_drive[k + kNodes], node_drive[k + kNodes + 1], betweenNodesAt(at));
 }
 
-FilmCell workedOut(ivec2 at, int volume_pl, FilmAround around, uint code, vec4 metric_here) {
-  int low = lowerEdge(at);
-  vec4 drive_here = between(column_drive[low], column_drive[low + kColumns], fraction(at.y));
-  int level = glassLevel(code, at.x - clamp(at.x >> 2, 0, kStrips - 1) * kStripSize);
-  FilmCell cell = filmCell(volume_pl, around, level, drive_here, metric_here, info);
-  cell_states[cellAt(at)] = vec4(cell.h_m, cell.hollowness, cell.slack, cell.entry_m);
-  cell_wishes[cellAt(at)] = ivec4(cell.x_pl, cell.y_pl, cell.x_both_pl, cell.y_both_pl);
+int levelAt(ivec2 at) {
+  int strip = clamp(at.x >> 2, 0, kStrips - 1);
+  uint code = imageLoad(glass, ((tile().y * kTileSize + at.y) * tiles().x + tile().x) * kStrips + strip).x;
+  return glassLevel(code, at.x - strip * kStripSize);
+}
+
+FilmCell workedOut(ivec2 at, int level, vec4 metric_here) {
+  int seen = seenAt(at), k = cellAt(at);
+  FilmAround around = filmAround(film[seen], film[seen - 1], film[seen + 1], film[seen - kSeenRow], film[seen + kSeenRow]);
+  FilmCell cell = filmCell(film[seen], around, level, driveAt(at), metric_here, info);
+  cell_h_m[k] = cell.h_m;
+  cell_hollowness[k] = cell.hollowness;
+  cell_slack[k] = cell.h_m >= info.pin_m ? cell.slack : -cell.entry_m;
+  cell_pl[kX + k] = cell.x_pl;
+  cell_pl[kY + k] = cell.y_pl;
+  cell_pl[kXBoth + k] = cell.x_both_pl;
+  cell_pl[kYBoth + k] = cell.y_both_pl;
   return cell;
 }
 
 FilmCell known(ivec2 at) {
-  vec4 is = cell_states[cellAt(at)];
-  ivec4 wish = cell_wishes[cellAt(at)];
-  return FilmCell(filmAt(at), is.x, wish.x, wish.y, wish.z, wish.w, is.y, is.z, float(max(abs(wish.x), abs(wish.y))), is.w);
+  int k = cellAt(at), x_pl = cell_pl[kX + k], y_pl = cell_pl[kY + k];
+  float slack = cell_slack[k];
+  return FilmCell(film[seenAt(at)], cell_h_m[k], x_pl, y_pl, cell_pl[kXBoth + k], cell_pl[kYBoth + k], cell_hollowness[k], slack,
+                  float(max(abs(x_pl), abs(y_pl))), max(-slack, 0.0));
 }
 
 int alongX(FilmCell a, FilmCell b) { return flowBetween_pl(a, a.x_pl, a.x_both_pl, b, b.x_pl, b.x_both_pl, info); }
 int alongY(FilmCell a, FilmCell b) { return flowBetween_pl(a, a.y_pl, a.y_both_pl, b, b.y_pl, b.y_both_pl, info); }
 
-// One of the texels beside the tile for each invocation.
-ivec2 beside() {
-  int k = lane() % kTileSize, side = lane() / kTileSize, beyond = (side & 1) == 0 ? -1 : kTileSize;
+// Those beside the tile, by the first invocations.
+const int kBeside = 4 * kTileSize;
+ivec2 besideTile() {
+  int k = laneAt().x, side = laneAt().y, beyond = (side & 1) == 0 ? -1 : kTileSize;
   return side < 2 ? ivec2(beyond, k) : ivec2(k, beyond);
 }
 
-uint codeAt(ivec2 at) { return imageLoad(glass, (tile().y * kTileSize + at.y) * acrossTiles() + tile().x)[clamp(at.x >> 2, 0, kStrips - 1)]; }
+// Over texels' left and lower edges, and the last ones' others: in words that laws no longer need.
+int overX(ivec2 at) { return at.y * (kTileSize + 1) + at.x; }
+int overY(ivec2 at) { return at.y * kTileSize + at.x; }
 
-void workOutBeside(ivec2 at, uint code) {
-  FilmAround around = filmAround(filmAt(at), filmAt(at - ivec2(1, 0)), filmAt(at + ivec2(1, 0)), filmAt(at - ivec2(0, 1)), filmAt(at + ivec2(0, 1)));
-  workedOut(at, filmAt(at), around, code, metricAt(at));
+// Over the tile's right and upper edges, by the last invocations.
+int flowOut(ivec2 at, bool to_right) {
+  FilmCell from = known(at), to = known(to_right ? at + ivec2(1, 0) : at + ivec2(0, 1));
+  return to_right ? alongX(from, to) : alongY(from, to);
 }
 
-// Over the tile's left and lower edges, by the first invocations.
-void flowIn() {
-  int k = lane() % kTileSize, side = lane() / kTileSize;
-  if (side == 0) flow_x[k * kEnds] = alongX(known(ivec2(-1, k)), known(ivec2(0, k)));
-  if (side == 1) flow_y[k >> 2][k & 3] = alongY(known(ivec2(k, -1)), known(ivec2(k, 0)));
+void passOver(ivec2 at, FilmCell me) {
+  int k = lane() - (kTileTexels - 2 * kTileSize), last = kTileSize - 1;
+  bool to_right = k < kTileSize;
+  ivec2 at_edge = to_right ? ivec2(last, k) : ivec2(k - kTileSize, last);
+  int left_pl = alongX(known(at - ivec2(1, 0)), me), below_pl = alongY(known(at - ivec2(0, 1)), me), out_pl = 0;
+  if (k >= 0) out_pl = flowOut(at_edge, to_right);
+  barrier();
+  cell_pl[kX + overX(at)] = left_pl;
+  cell_pl[kY + overY(at)] = below_pl;
+  if (k >= 0 && to_right) cell_pl[kX + overX(at_edge + ivec2(1, 0))] = out_pl;
+  if (k >= 0 && !to_right) cell_pl[kY + overY(at_edge + ivec2(0, 1))] = out_pl;
 }
 
 // Over an edge that looks up it is blown off, over others it drains.
-void leavePane(int volume_pl, vec2 outward) {
-  if (volume_pl == 0) return;
-  if (dot(outward, vec2(info.up_x, info.up_y)) > 0.5) atomicAdd(blown_pl, volume_pl);
-  else atomicAdd(drained_pl, volume_pl);
+void leavePane(ivec4 over_pl) {
+  bvec4 up = greaterThan(vec4(-info.up_x, info.up_x, -info.up_y, info.up_y), vec4(0.5));
+  ivec4 up_pl = over_pl * ivec4(up);
+  int blown = up_pl.x + up_pl.y + up_pl.z + up_pl.w, all = over_pl.x + over_pl.y + over_pl.z + over_pl.w;
+  if (blown != 0) atomicAdd(blown_pl, blown);
+  if (all != blown) atomicAdd(drained_pl, all - blown);
 }
 
-// What passes over a texel's edges, and who is beyond them.
-struct Passing { int left_pl, right_pl, below_pl, above_pl; };
-
-FilmTexel flowed(int volume_pl, Passing over, Passing beyond, uint lay, vec4 metric_here) {
+FilmTexel flowed(ivec2 at, int volume_pl, uint lay, vec4 metric_here) {
+  int left = cell_pl[kX + overX(at)], right = cell_pl[kX + overX(at + ivec2(1, 0))], below = cell_pl[kY + overY(at)], above = cell_pl[kY + overY(at + ivec2(0, 1))];
+  int seen = seenAt(at);
   bool on = volume_pl >= 0;
-  if (on) {
-    if (beyond.left_pl < 0) leavePane(-over.left_pl, vec2(-1.0, 0.0));
-    if (beyond.right_pl < 0) leavePane(over.right_pl, vec2(1.0, 0.0));
-    if (beyond.below_pl < 0) leavePane(-over.below_pl, vec2(0.0, -1.0));
-    if (beyond.above_pl < 0) leavePane(over.above_pl, vec2(0.0, 1.0));
-  }
-  int volume = volume_pl + passed(kFlow, over.left_pl) - over.right_pl + passed(kFlow, over.below_pl) - over.above_pl;
+  bvec4 beyond_off = lessThan(ivec4(film[seen - 1], film[seen + 1], film[seen - kSeenRow], film[seen + kSeenRow]), ivec4(0));
+  if (on && any(beyond_off)) leavePane(ivec4(-left, right, -below, above) * ivec4(beyond_off));
+  int volume = volume_pl + passed(kFlow, left) - right + passed(kFlow, below) - above;
   FilmTexel now = settled(on ? volume : -1, beadsOf(lay), metric_here, info);
   now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
   return now;
 }
 
 // One texel of a tile gives to the drops: the one with most, the first of those.
-int offerOf(FilmTexel now[kStripSize]) {
-  int most = 0;
-  for (int i = 0; i < kStripSize; ++i) most = max(most, now[i].gone_pl);
-  return most;
-}
-
-void give(inout FilmTexel now[kStripSize], int first) {
-  int offer_pl = offerOf(now);
-  if (offer_pl > 0) atomicMax(most_pl, offer_pl);
+FilmTexel given(FilmTexel now) {
+  if (now.gone_pl > 0) atomicMax(most_pl, now.gone_pl);
   barrier();
-  if (most_pl == 0) return; // the same for all
-  for (int i = kStripSize - 1; i >= 0; --i) {
-    if (now[i].gone_pl == most_pl) atomicMin(giver, first + i);
-  }
+  if (now.gone_pl > 0 && now.gone_pl == most_pl) atomicMin(giver, lane());
   barrier();
-  for (int i = 0; i < kStripSize; ++i) {
-    if (giver == first + i) now[i] = without(now[i], now[i].gone_pl);
-  }
+  if (lane() == giver) now = without(now, now.gone_pl);
+  return now;
 }
 
-// As a tile tells it: low and high part of its film, its beads; and whether any stirs.
-ivec4 toldOf(FilmTexel now) {
-  int whole = max(now.film_pl, 0);
-  return ivec4(whole & 0xffff, whole >> 16, now.beads.volume_pl, now.stirs);
-}
-
-// The group's sum, for its first invocation. In two stages: with atomics all would wait for one address.
+// The group's sum, for its first invocation, in words that nobody else needs any more. In two stages: with atomics all would wait for one address.
 ivec4 summed(ivec4 own) {
-  const int kStage = 8;
-  summands[lane()] = own;
+  const int kStage = 16;
+  for (int c = 0; c < 4; ++c) cell_pl[c * kCells + lane()] = own[c];
   barrier();
-  if (lane() < kStage) {
-    for (int k = lane() + kStage; k < kLanes; k += kStage) own += summands[k];
-    summands[lane()] = own;
+  int sum = 0, first = lane() / kStage * kCells + lane() % kStage;
+  if (lane() < 4 * kStage) {
+    for (int k = 0; k < kTileTexels; k += kStage) sum += cell_pl[first + k];
+    cell_pl[first] = sum;
   }
   barrier();
+  ivec4 all = ivec4(0);
   if (lane() == 0) {
-    for (int k = 1; k < kStage; ++k) own += summands[k];
+    for (int k = 0; k < kStage; ++k) all += ivec4(cell_pl[k], cell_pl[kCells + k], cell_pl[2 * kCells + k], cell_pl[3 * kCells + k]);
   }
-  return own;
+  return all;
 }
 
-void flow(int t, bool awake) {
-  int row = lane() / kStrips, column = lane() % kStrips, strip = stripIn(row, column);
-  ivec2 at = ivec2(column * kStripSize, row), next_to = beside();
-  uint code = codeAt(at), code_beside = codeAt(next_to);
-  uvec4 lay = imageLoad(lying, strip);
-  load(row, column);
+// What its texel's film and beads come to.
+FilmTexel flow(uint lay, int level, int level_beside, vec4 metric_here) {
+  ivec2 at = laneAt();
+  FilmCell me = workedOut(at, level, metric_here);
+  if (lane() < kBeside) workedOut(besideTile(), level_beside, metricAt(besideTile()));
   barrier();
-
-  int seen = seenAt(row, column);
-  ivec4 own = film[seen], below = film[seen - kSeenStrips], above = film[seen + kSeenStrips];
-  int left = film[seen - 1].w, right = film[seen + 1].x;
-  vec4 metric_here[kStripSize];
-  FilmCell me[kStripSize];
-  for (int i = 0; i < kStripSize; ++i) {
-    ivec2 here = at + ivec2(i, 0);
-    metric_here[i] = metricAt(here);
-    FilmAround around = filmAround(own[i], i > 0 ? own[max(i - 1, 0)] : left, i < 3 ? own[min(i + 1, 3)] : right, below[i], above[i]);
-    me[i] = workedOut(here, own[i], around, code, metric_here[i]);
-  }
-  workOutBeside(next_to, code_beside);
+  passOver(at, me);
   barrier();
-
-  ivec4 to_right, to_above;
-  for (int i = 0; i < kStripSize; ++i) {
-    if (i + 1 < kStripSize) to_right[i] = alongX(me[i], me[min(i + 1, 3)]);
-    else to_right[i] = alongX(me[i], known(at + ivec2(kStripSize, 0)));
-    to_above[i] = alongY(me[i], known(at + ivec2(i, 1)));
-  }
-  flow_x[row * kEnds + column + 1] = to_right.w;
-  flow_y[(row + 1) * kStrips + column] = to_above;
-  flowIn();
-  barrier();
-
-  ivec4 from_below = flow_y[row * kStrips + column], from_left = ivec4(flow_x[row * kEnds + column], to_right.xyz);
-  ivec4 beyond_left = ivec4(left, own.xyz), beyond_right = ivec4(own.yzw, right);
-  FilmTexel now[kStripSize];
+  FilmTexel now = flowed(at, me.volume_pl, lay, metric_here);
   // Asleep next time only if neighbours, too, have seen it lie still.
-  int stirred = 0;
-  for (int i = 0; i < kStripSize; ++i) {
-    now[i] = flowed(own[i], Passing(from_left[i], to_right[i], from_below[i], to_above[i]), Passing(beyond_left[i], beyond_right[i], below[i], above[i]),
-                    lay[i], metric_here[i]);
-    stirred |= int(me[i].h_m >= info.pin_m);
-  }
-  give(now, row * kTileSize + at.x);
-  after[strip] = ivec4(now[0].film_pl, now[1].film_pl, now[2].film_pl, now[3].film_pl);
-  uvec4 lie = uvec4(packedBeads(now[0].beads), packedBeads(now[1].beads), packedBeads(now[2].beads), packedBeads(now[3].beads));
-  if (lie != lay) beads[strip] = lie;
-  ivec4 sum = summed(toldOf(now[0]) + toldOf(now[1]) + toldOf(now[2]) + toldOf(now[3]) + ivec4(0, 0, 0, stirred));
+  if (now.stirs != 0 || me.h_m >= info.pin_m) stirs_next = 1;
+  return given(now);
+}
+
+// One that sleeps stays asleep, and nothing brings one copy of its film to the other: both are written.
+void put(FilmTexel now, uint lay) {
+  int place = placeIn(laneAt());
+  if (stirring == 0 && now.film_pl != film[seenAt(laneAt())]) before[place] = now.film_pl;
+  after[place] = now.film_pl;
+  uint lie = packedBeads(now.beads);
+  if (lie != lay) beads[place] = lie;
+}
+
+// Low and high part of a texel's film, its beads, what of both has dried: summed for the tile's report.
+void tellAll(int t, FilmTexel now, int dried_pl) {
+  int whole = max(now.film_pl, 0);
+  ivec4 sum = summed(ivec4(whole & 0xffff, whole >> 16, now.beads.volume_pl, dried_pl));
   if (lane() != 0) return;
-  bool gives = most_pl > 0;
-  ivec2 given_at = tile() * kTileSize + ivec2(giver % kTileSize, giver / kTileSize);
-  tell(t, FilmTile(gives ? given_at.y * info.columns + given_at.x : -1, most_pl, uint(sum.x), uint(sum.y), drained_pl, blown_pl, driedPl(t), uint(sum.z)));
-  states[t].awake = int(awake);
-  states[t].stirs[1 - turn] = int(sum.w != 0);
+  bool gives = giver < kTileTexels;
+  tell(t, FilmTile(gives ? texelOf(ivec2(giver % kTileSize, giver / kTileSize)) : -1, gives ? most_pl : 0, uint(sum.x), uint(sum.y), drained_pl, blown_pl,
+                   sum.w, uint(sum.z)));
+  states[t].awake = stirring;
+  states[t].stirs[1 - turn] = stirs_next;
   states[t].last[kFilmLow] = sum.x;
   states[t].last[kFilmHigh] = sum.y;
   states[t].last[kBeadsPl] = sum.z;
 }
 
-void main() {
-  int t = tile().y * acrossTiles() + tile().x;
-  if (tile().y * kTileSize >= info.rows) {
-    if (tile().x == 0) tellRidges();
-    return;
+void begin() {
+  if (lane() != 0) return;
+  stirring = stirs_next = most_pl = drained_pl = blown_pl = 0;
+  giver = kTileTexels;
+}
+
+void step() {
+  int t = tile().y * tiles().x + tile().x;
+  begin();
+  barrier();
+  // Asked for before it is known whether the tile is awake, so that all is waited for at once.
+  uint lay = beads[placeIn(laneAt())];
+  int level = levelAt(laneAt()), level_beside = lane() < kBeside ? levelAt(besideTile()) : 0;
+  load(t);
+  barrier();
+  bool flows = stirring != 0 || was_awake != 0, dries = driesNow(uint(t), info) && (flows || lies != 0);
+  if (flows || dries) {
+    vec4 metric_here = metricAt(laneAt());
+    FilmTexel now = asItIs(film[seenAt(laneAt())], beadsOf(lay));
+    if (flows) now = flow(lay, level, level_beside, metric_here);
+    int dried_pl = 0;
+    if (dries) {
+      now = dried(now.film_pl, now.beads, uint(texelOf(laneAt())), metric_here, info);
+      dried_pl = now.gone_pl;
+    }
+    put(now, lay);
+    tellAll(t, now, dried_pl);
+  } else if (lane() == 0) {
+    sleep(t);
   }
-  bool awake = wakes();
-  if (awake || states[t].awake != 0) flow(t, awake);
-  else sleep(t);
+}
+
+// The last row of groups has no tiles.
+void main() {
+  if (tile().y < tiles().y) step();
+  else if (tile().x == 0) tellRidges();
 }

@@ -4,7 +4,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 2) writeonly buffer Report { FilmTile tiles[]; };
 layout(std430, binding = 4) buffer Awake {
   AwakeTiles awake[2], drying[2]; // this step's, and the next's made ready
-  int listed[];                   // those awake, and from `count` on those that dry: -1 - tile where it sleeps on
+  int listed[];                   // those awake, and from `count` on those that dry: -1 - tile where it sleeps from now on
 };
 
 AwakeTiles groupsUpTo(uint group) { return AwakeTiles(min(group + 1u, kGroupsInRow), group / kGroupsInRow + 1u, 1u, 0u); }
@@ -26,7 +26,7 @@ void main() {
   // Of what came to it in this step its state does not know yet.
   if (driesNow(uint(t), info) && (looked_at || (states[t].last[kFilmLow] | states[t].last[kFilmHigh] | states[t].last[kBeadsPl]) != 0)) {
     uint place = atomicAdd(drying[turn].number, 1u);
-    listed[uint(count) + place] = looked_at ? t : -1 - t;
+    listed[uint(count) + place] = now ? t : -1 - t;
     AwakeTiles groups = groupsUpTo(place / uint(kTilesInDryGroup));
     atomicMax(drying[turn].groups_x, groups.groups_x);
     atomicMax(drying[turn].groups_y, groups.groups_y);

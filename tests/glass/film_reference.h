@@ -108,7 +108,6 @@ class FilmReference {
 
   void step(const glass::FilmOrder& order, glass::FilmReport& report) {
     report.tiles.assign(map_.tileArea_m2().size(), shared::FilmTile{-1, 0, 0, 0, 0, 0, 0, 0});
-    dry(order.info, report);
     std::vector<shared::FilmCell> cells(film.size());
     for (int i = 0; i < map_.texelCount(); ++i) {
       const int x = i % columns_, y = i / columns_;
@@ -136,6 +135,7 @@ class FilmReference {
       if (tile.event_texel >= 0)
         put(tile.event_texel, shared::without(settled[static_cast<size_t>(tile.event_texel)], tile.event_pl));
     }
+    dry(order.info, report);
     for (int i = 0; i < map_.texelCount(); ++i) {
       shared::FilmTile& tile = report.tiles[static_cast<size_t>(
           i / columns_ / shared::kTileSize * tiles_across + i % columns_ / shared::kTileSize)];

@@ -53,15 +53,14 @@ std::vector<uint32_t> stripCodes(const PaneMap& map, const UnevenGlass& glass) {
 FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software) : by_lists(software) {
   const std::vector<std::string> told = defines(leaky);
   const auto make = [&](std::string_view path) { return gl::Program(gl, {path}, told); };
+  change = make("glass/film_change.comp");
   sweep = make("glass/film_sweep.comp");
   leave = make("glass/film_leave.comp");
   if (by_lists) {
-    change = make("glass/film_change.comp");
     wake = make("glass/film_wake.comp");
-    dry = make("glass/film_dry.comp");
     flow = make("glass/film_flow.comp");
+    dry = make("glass/film_dry.comp");
   } else {
-    begin = make("glass/film_begin.comp");
     tile = make("glass/film_tile.comp");
   }
   for (const gl::Program* program : all()) {
@@ -69,8 +68,8 @@ FilmPrograms::FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool softw
   }
 }
 
-std::array<gl::Program*, 8> FilmPrograms::all() {
-  return {&sweep, &leave, &change, &wake, &dry, &flow, &begin, &tile};
+std::array<gl::Program*, 7> FilmPrograms::all() {
+  return {&change, &sweep, &leave, &wake, &flow, &dry, &tile};
 }
 
 std::shared_ptr<FilmPrograms> makeFilmPrograms(const GladGLContext& gl, FilmKernel leaky) {
@@ -97,6 +96,7 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
       glass_(gl, std::span<const uint32_t>(stripCodes(map, glass))),
       metric_nodes_(gl),
       glass_strips_(gl),
+      glass_codes_(gl),
       drive_(gl, map.nodeMetric().size() * sizeof(shared::vec4), 0),
       drive_nodes_(gl),
       ordered_drive_nodes_(gl),
@@ -108,6 +108,7 @@ FilmGl::FilmGl(const GladGLContext& gl, std::shared_ptr<FilmPrograms> programs, 
   drive_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), drive_, 0, drive_.bytes());
   glass_strips_.show(GL_RGBA32UI, shared::kTileSize / shared::kStripSize * sizeof(uint32_t), glass_, 0,
                      glass_.bytes());
+  glass_codes_.show(GL_R32UI, sizeof(uint32_t), glass_, 0, glass_.bytes());
   for (size_t i = 0; i < film_.size(); ++i) {
     film_[i] = gl::Buffer(gl, tiles_ * kTileTexels * sizeof(int32_t));
     film_strips_[i] = gl::BufferTexture(gl);
@@ -144,7 +145,7 @@ std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
   std::vector<Step> steps;
   size_t bytes = 0, report_bytes = 0;
   for (const FilmOrder& order : orders) {
-    steps.push_back({this, &order, 0, 0, bytes, report_bytes});
+    steps.push_back({this, &order, 0, bytes, report_bytes});
     bytes += UploadLayout(order).bytes;
     report_bytes += ReportLayout(tiles_, order.takes.size()).bytes;
   }
@@ -152,16 +153,12 @@ std::vector<FilmGl::Step> FilmGl::begin(std::span<const FilmOrder> orders) {
   for (Step& step : steps) {
     const FilmOrder& order = *step.order;
     const UploadLayout at(order);
-    std::vector<shared::FilmChange> changes = changesOf(order);
-    std::vector<int> firsts;
-    if (!programs_->by_lists) firsts = sortByDrying(changes, DryingTiles(order.info));
+    const std::vector<shared::FilmChange> changes = changesOf(order);
     step.changes = changes.size();
-    step.elsewhere = firsts.empty() ? changes.size() : static_cast<size_t>(firsts.front());
     unsigned char* start = begun_->orders + step.upload_at;
     put(start + at.info, &order.info, 1);
     put(start + at.drive, order.drive.data(), order.drive.size());
     put(start + at.changes, changes.data(), changes.size());
-    put(start + at.firsts, firsts.data(), firsts.size());
     put(start + at.ranges, order.sweep_ranges.data(), order.sweep_ranges.size());
     put(start + at.leaves, order.leaves.data(), order.leaves.size());
     put(start + at.texels, order.leave_texels.data(), order.leave_texels.size());
@@ -218,32 +215,6 @@ std::vector<shared::FilmChange> FilmGl::changesOf(const FilmOrder& order) {
   for (const shared::RidgeAdd& add : order.ridge_adds)
     changes.push_back({-1 - add.segment, add.volume_pl, 0, -1, 0, 0});
   return changes;
-}
-
-// Those to tiles that dry in the step come last, tile by tile: tells where each tile's begin, and where the
-// last one's end.
-std::vector<int> FilmGl::sortByDrying(std::vector<shared::FilmChange>& changes,
-                                      const DryingTiles& drying) const {
-  const auto columns = static_cast<size_t>(map_.grid().size.x),
-             across = static_cast<size_t>(map_.tileCount().x);
-  const auto place = [&](const shared::FilmChange& change) {
-    if (change.texel < 0) return drying.count;
-    const auto texel = static_cast<size_t>(change.texel);
-    return drying.placeOf(texel / columns / shared::kTileSize * across + texel % columns / shared::kTileSize);
-  };
-  std::vector<int> next(drying.count + 1, 0);
-  for (const shared::FilmChange& change : changes) ++next[place(change)];
-  int before = std::exchange(next[drying.count], 0);
-  const int elsewhere = before;
-  for (size_t k = 0; k < drying.count; ++k) before += std::exchange(next[k], before);
-  std::vector<int> firsts(next.begin(), next.begin() + static_cast<std::ptrdiff_t>(drying.count));
-  firsts.push_back(before);
-  if (elsewhere == before) return firsts;
-  std::vector<shared::FilmChange> sorted(changes.size());
-  for (const shared::FilmChange& change : changes)
-    sorted[static_cast<size_t>(next[place(change)]++)] = change;
-  changes = std::move(sorted);
-  return firsts;
 }
 
 std::unique_ptr<FilmGl::Batch> FilmGl::freeBatch(size_t upload_bytes, size_t report_bytes) {
@@ -384,8 +355,10 @@ void FilmGl::set(const FilmState& state) {
   const std::vector<int32_t> film = inTiles<int32_t>(state.film_pl, -1);
   for (gl::Buffer& buffer : film_) buffer.write(0, std::span<const int32_t>(film));
   beads_.write(0, std::span<const uint32_t>(inTiles<uint32_t>(state.beads, 0)));
-  ridges_.zero();
-  ridges_.write(0, std::span<const int32_t>(state.ridge_pl));
+  // In one go: what a driver (NVIDIA 580) clears it may clear after what is written next.
+  std::vector<int32_t> ridges(kRidgeBytes / sizeof(int32_t), 0);
+  std::copy(state.ridge_pl.begin(), state.ridge_pl.end(), ridges.begin());
+  ridges_.write(0, std::span<const int32_t>(ridges));
   states_.write(0, std::span<const uint32_t>(tileStates(state)));
   awake_.write(0, std::span<const uint32_t>(kNoneAwake));
   thrown_before_pl_.assign(kRidgePieces, 0);
@@ -427,7 +400,7 @@ void FilmGl::abandon() {
   for (gl::Buffer& film : film_) film.forget();
   for (gl::BufferTexture& strips : film_strips_) strips.forget();
   for (gl::BufferTexture* nodes :
-       {&metric_nodes_, &drive_nodes_, &ordered_drive_nodes_, &glass_strips_, &beads_strips_})
+       {&metric_nodes_, &drive_nodes_, &ordered_drive_nodes_, &glass_strips_, &glass_codes_, &beads_strips_})
     nodes->forget();
   picture_.forget();
   beads_picture_.forget();

@@ -24,11 +24,11 @@ class FilmPrograms {
   // `software`: by lists of tiles, as suits a CPU. Else few kernels, and those wide. What they work out is
   // the same.
   FilmPrograms(const GladGLContext& gl, FilmKernel leaky, bool software);
-  std::array<gl::Program*, 8> all();
+  std::array<gl::Program*, 7> all();
   bool by_lists;
-  gl::Program sweep, leave;
-  gl::Program change, wake, dry, flow;  // by lists
-  gl::Program begin, tile;              // others
+  gl::Program change, sweep, leave;
+  gl::Program wake, flow, dry;  // by lists
+  gl::Program tile;             // all of those at once
 };
 
 class FilmGl {
@@ -82,7 +82,6 @@ class FilmGl {
     FilmGl* film;
     const FilmOrder* order;
     size_t changes;
-    size_t elsewhere;             // of these, on tiles that do not dry: the first
     size_t upload_at, report_at;  // in the batch's buffers
   };
 
@@ -91,32 +90,26 @@ class FilmGl {
   void end();
   // Kernels: false when there is nothing for one to do. film_step_gl.cpp has them, and their order.
   static void step(std::span<const Step> steps);
-  static void stepByLists(std::span<const Step> steps);
+  static void flowByLists(std::span<const Step> steps);
   static void sweepAndLeave(std::span<const Step> steps);
-  bool changeAndDry(const Step& step);
-  bool dryAfterBlades(const Step& step);
-  bool flowOverTiles(const Step& step);
   bool change(const Step& step);
   void sweep(const Step& step, const SweepOrder& sweep);
   bool leave(const Step& step);
   bool wake(const Step& step);
-  bool dry(const Step& step);
   bool flow(const Step& step);
+  bool dry(const Step& step);
+  bool flowOverTiles(const Step& step);
   void tellRidges(const Step& step);
   void turnOver();
   void bind(GLuint binding, const gl::Buffer& buffer, size_t offset, size_t bytes) const;
   void bindState(const Step& step) const;
-  void showDrive(gl::BufferTexture& nodes, const Step& step) const;
-  void bindImages(const gl::BufferTexture& drive) const;
   void bindFlow(const Step& step);
-  void bindBegin(const Step& step);
-  void dispatch(const gl::Program& program, size_t count) const;
-  void dispatchGroups(const gl::Program& program, size_t count, size_t groups) const;
+  void bindDrive(const Step& step);
+  void dispatch(const gl::Program& program, size_t count, size_t before = 0) const;
   void dispatchListed(const gl::Program& program, size_t command_at) const;
 
   void clear();
   std::vector<shared::FilmChange> changesOf(const FilmOrder& order);
-  std::vector<int> sortByDrying(std::vector<shared::FilmChange>& changes, const DryingTiles& drying) const;
   size_t place(int texel) const;
   void show(const gl::Buffer& texels, GLenum type, gl::Texture2D& picture);
   template <typename T>
@@ -140,7 +133,7 @@ class FilmGl {
   gl::Buffer beads_;  // lie where they are: one copy will do
   gl::BufferTexture beads_strips_;
   gl::Buffer ridges_, states_, awake_, metric_, glass_;
-  gl::BufferTexture metric_nodes_, glass_strips_;
+  gl::BufferTexture metric_nodes_, glass_strips_, glass_codes_;
   gl::Buffer
       drive_;  // what drives the film in a step, brought to the GPU's own memory: every tile asks for it
   gl::BufferTexture drive_nodes_, ordered_drive_nodes_;

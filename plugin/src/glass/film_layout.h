@@ -12,9 +12,9 @@
 namespace rg::glass {
 
 inline constexpr size_t kAlign = 256;      // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-inline constexpr size_t kTileFields = 12;  // TileState in film_buffers.glsl
+inline constexpr size_t kTileFields = 11;  // TileState in film_buffers.glsl
 inline constexpr size_t kTileAwake = 2,
-                        kTileLast = 4;  // of those: after how each turn stirs; its last report
+                        kTileLast = 3;  // of those: after how each turn stirs; its last report
 inline constexpr size_t kTileStateBytes = kTileFields * sizeof(int32_t);
 inline constexpr std::array<uint32_t, 16> kNoneAwake{
     0, 1, 1, 0, 0, 1, 1, 0,
@@ -24,23 +24,6 @@ inline constexpr size_t kRidgeBytes = 2 * kRidgePieces * sizeof(int32_t);  // an
 
 inline size_t aligned(size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
 
-// The tiles that dry in a step: every kDryingSteps-th from the first, see driesNow.
-struct DryingTiles {
-  explicit DryingTiles(const shared::FilmStepInfo& info)
-      : first((shared::kDryingSteps - info.step / 2u % shared::kDryingSteps) % shared::kDryingSteps) {
-    const auto along = [](int texels) {
-      return (static_cast<size_t>(texels) + shared::kTileSize - 1) / shared::kTileSize;
-    };
-    const size_t tiles = along(info.columns) * along(info.rows);
-    count = tiles <= first ? 0 : (tiles - first - 1) / shared::kDryingSteps + 1;
-  }
-  // Its place among them; what does not dry: `count`.
-  size_t placeOf(size_t tile) const {
-    return tile % shared::kDryingSteps == first ? tile / shared::kDryingSteps : count;
-  }
-  size_t first, count;
-};
-
 // Where the parts of an order lie in the upload, from its start.
 struct UploadLayout {
   explicit UploadLayout(const FilmOrder& order) {
@@ -49,14 +32,13 @@ struct UploadLayout {
     changes = next((order.takes.size() + order.slid.size() + order.adds.size() + order.bead_adds.size() +
                     order.ridge_adds.size()) *
                    sizeof(shared::FilmChange));
-    firsts = next((DryingTiles(order.info).count + 1) * sizeof(int));
     ranges = next(order.sweep_ranges.size() * sizeof(shared::SweptRange));
     leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
     texels = next(order.leave_texels.size() * sizeof(int));
   }
   size_t next(size_t part) { return std::exchange(bytes, bytes + aligned(part)); }
   size_t bytes = 0;
-  size_t info, drive, changes, firsts, ranges, leaves, texels;  // of changes there may be fewer
+  size_t info, drive, changes, ranges, leaves, texels;  // of changes there may be fewer
 };
 
 // Where the parts of a report lie, from its start.

@@ -53,28 +53,24 @@ void each(const GladGLContext& gl, const Steps& steps, GLbitfield barrier, const
 }  // namespace
 
 // Each film's step; of none there are two. What a GPU pays for a kernel that waits for another is much more
-// than for groups that find nothing to do: changes and drying are one kernel where no blade is between.
+// than for groups that find nothing to do.
 void FilmGl::step(std::span<const Step> steps) {
-  const GladGLContext& gl = steps.front().film->gl_;
-  if (steps.front().film->programs_->by_lists) return stepByLists(steps);
-  each(gl, steps, kFilmBarrier, &FilmGl::changeAndDry);
-  sweepAndLeave(steps);
-  each(gl, steps, kFilmBarrier, &FilmGl::dryAfterBlades);
-  each(gl, steps, kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::flowOverTiles);
-  for (const Step& s : steps) s.film->turnOver();
-}
-
-void FilmGl::stepByLists(std::span<const Step> steps) {
   const GladGLContext& gl = steps.front().film->gl_;
   each(gl, steps, kFilmBarrier, &FilmGl::change);
   sweepAndLeave(steps);
+  if (steps.front().film->programs_->by_lists)
+    flowByLists(steps);
+  else
+    each(gl, steps, kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::flowOverTiles);
+  for (const Step& s : steps) s.film->turnOver();
+}
+
+void FilmGl::flowByLists(std::span<const Step> steps) {
+  const GladGLContext& gl = steps.front().film->gl_;
   each(gl, steps, kFilmBarrier | GL_COMMAND_BARRIER_BIT, &FilmGl::wake);
+  each(gl, steps, kFilmBarrier, &FilmGl::flow);
   each(gl, steps, kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::dry);
-  each(gl, steps, kFilmBarrier | GL_BUFFER_UPDATE_BARRIER_BIT, &FilmGl::flow);
-  for (const Step& s : steps) {
-    s.film->tellRidges(s);
-    s.film->turnOver();
-  }
+  for (const Step& s : steps) s.film->tellRidges(s);
 }
 
 void FilmGl::sweepAndLeave(std::span<const Step> steps) {
@@ -105,62 +101,24 @@ void FilmGl::bindState(const Step& step) const {
   bind(6, beads_, 0, beads_.bytes());
 }
 
-void FilmGl::dispatch(const gl::Program& program, size_t count) const {
+// Groups of 64: for `before` invocations, and for `count`.
+void FilmGl::dispatch(const gl::Program& program, size_t count, size_t before) const {
   program.set(0, static_cast<int32_t>(count));
   program.set(1, static_cast<int32_t>(turn_));
   program.use();
-  gl_.DispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
-}
-
-// In rows, as in film_buffers.glsl.
-void FilmGl::dispatchGroups(const gl::Program& program, size_t count, size_t groups) const {
-  constexpr size_t kGroupsInRow = 32768;
-  program.set(0, static_cast<int32_t>(count));
-  program.set(1, static_cast<int32_t>(turn_));
-  program.use();
-  gl_.DispatchCompute(static_cast<GLuint>(std::min(groups, kGroupsInRow)),
-                      static_cast<GLuint>((groups + kGroupsInRow - 1) / kGroupsInRow), 1);
-}
-
-namespace {
-
-bool hasBlades(const FilmOrder& order) { return !order.sweeps.empty() || !order.leaves.empty(); }
-
-size_t groupsFor(size_t invocations) { return (invocations + kTileTexels - 1) / kTileTexels; }
-
-}  // namespace
-
-// What drives the film is brought; changes; and tiles dry, unless a blade has to pass before.
-bool FilmGl::changeAndDry(const Step& step) {
-  const bool dries = !hasBlades(*step.order);
-  const size_t drying = dries ? DryingTiles(step.order->info).count : 0,
-               elsewhere = dries ? step.elsewhere : step.changes, nodes = step.order->drive.size();
-  bindBegin(step);
-  programs_->begin.set(2, static_cast<int32_t>(drying));
-  programs_->begin.set(3, 1);
-  programs_->begin.set(4, static_cast<int32_t>(nodes));
-  dispatchGroups(programs_->begin, elsewhere, groupsFor(nodes) + drying + groupsFor(elsewhere));
-  return true;
-}
-
-bool FilmGl::dryAfterBlades(const Step& step) {
-  const size_t drying = DryingTiles(step.order->info).count;
-  if (!hasBlades(*step.order) || drying == 0) return false;
-  bindBegin(step);
-  programs_->begin.set(2, static_cast<int32_t>(drying));
-  programs_->begin.set(3, 0);
-  programs_->begin.set(4, 0);
-  dispatchGroups(programs_->begin, 0, drying);
-  return true;
+  gl_.DispatchCompute(static_cast<GLuint>((before + 63) / 64 + (count + 63) / 64), 1, 1);
 }
 
 // A group for each tile, and a row of which one tells of the ridges.
 bool FilmGl::flowOverTiles(const Step& step) {
   const ReportLayout report(tiles_, step.order->takes.size());
   bindState(step);
-  bindImages(drive_nodes_);
+  bind(0, metric_, 0, metric_.bytes());
   bind(2, begun_->report, step.report_at, report.taken);
   bind(3, film_[1 - turn_], 0, film_[1 - turn_].bytes());
+  bind(4, drive_, 0, drive_.bytes());
+  bind(7, film_[turn_], 0, film_[turn_].bytes());
+  gl_.BindImageTexture(4, glass_codes_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_R32UI);
   programs_->tile.set(2, static_cast<int32_t>(report.ridges / sizeof(int)));
   programs_->tile.set(1, static_cast<int32_t>(turn_));
   programs_->tile.use();
@@ -169,30 +127,18 @@ bool FilmGl::flowOverTiles(const Step& step) {
   return true;
 }
 
-void FilmGl::bindBegin(const Step& step) {
-  const UploadLayout upload(*step.order);
+// On a GPU it brings what drives the film besides.
+bool FilmGl::change(const Step& step) {
+  const size_t nodes = programs_->by_lists ? 0 : step.order->drive.size();
+  if (step.changes + nodes == 0) return false;
   const ReportLayout report(tiles_, step.order->takes.size());
   bindState(step);
-  bind(0, begun_->upload, step.upload_at + upload.changes,
+  bindDrive(step);
+  bind(0, begun_->upload, step.upload_at + UploadLayout(*step.order).changes,
        std::max<size_t>(step.changes, 1) * sizeof(shared::FilmChange));
   bind(2, begun_->report, step.report_at + report.taken, report.taken_bytes);
-  bind(4, begun_->upload, step.upload_at + upload.firsts,
-       (DryingTiles(step.order->info).count + 1) * sizeof(int));
-  bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
-  showDrive(ordered_drive_nodes_, step);
-  gl_.BindImageTexture(1, metric_nodes_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
-  gl_.BindImageTexture(2, ordered_drive_nodes_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
-  gl_.BindImageTexture(3, drive_nodes_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-}
-
-bool FilmGl::change(const Step& step) {
-  if (step.changes == 0) return false;
-  const ReportLayout report(tiles_, step.order->takes.size());
-  bindState(step);
-  bind(0, begun_->upload, step.upload_at + UploadLayout(*step.order).changes,
-       step.changes * sizeof(shared::FilmChange));
-  bind(2, begun_->report, step.report_at + report.taken, report.taken_bytes);
-  dispatch(programs_->change, step.changes);
+  programs_->change.set(2, static_cast<int32_t>(nodes));
+  dispatch(programs_->change, step.changes, nodes);
   return true;
 }
 
@@ -230,17 +176,21 @@ bool FilmGl::wake(const Step& step) {
   return true;
 }
 
-bool FilmGl::dry(const Step& step) {
-  bindFlow(step);
-  programs_->dry.set(0, static_cast<int32_t>(tiles_));
-  dispatchListed(programs_->dry, sizeof kNoneAwake / 2);
-  return true;
-}
-
 bool FilmGl::flow(const Step& step) {
   bindFlow(step);
   bind(3, film_[1 - turn_], 0, film_[1 - turn_].bytes());
   dispatchListed(programs_->flow, 0);
+  return true;
+}
+
+// As the flow left it; of tiles that sleep both copies are the same.
+bool FilmGl::dry(const Step& step) {
+  bindFlow(step);
+  gl_.BindImageTexture(0, film_strips_[1 - turn_].name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32I);
+  bind(3, film_[1 - turn_], 0, film_[1 - turn_].bytes());
+  bind(7, film_[turn_], 0, film_[turn_].bytes());
+  programs_->dry.set(0, static_cast<int32_t>(tiles_));
+  dispatchListed(programs_->dry, sizeof kNoneAwake / 2);
   return true;
 }
 
@@ -256,30 +206,28 @@ void FilmGl::turnOver() {
   picture_is_old_ = beads_picture_is_old_ = true;
 }
 
-void FilmGl::showDrive(gl::BufferTexture& nodes, const Step& step) const {
-  nodes.show(GL_RGBA32F, sizeof(shared::vec4), begun_->upload,
-             step.upload_at + UploadLayout(*step.order).drive,
-             step.order->drive.size() * sizeof(shared::vec4));
+// As ordered, and where it is brought.
+void FilmGl::bindDrive(const Step& step) {
+  ordered_drive_nodes_.show(GL_RGBA32F, sizeof(shared::vec4), begun_->upload,
+                            step.upload_at + UploadLayout(*step.order).drive,
+                            step.order->drive.size() * sizeof(shared::vec4));
+  gl_.BindImageTexture(2, ordered_drive_nodes_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
+  gl_.BindImageTexture(3, drive_nodes_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
 }
 
-void FilmGl::bindImages(const gl::BufferTexture& drive) const {
+void FilmGl::bindFlow(const Step& step) {
+  bindState(step);
+  bindDrive(step);
+  bind(2, begun_->report, step.report_at, tiles_ * sizeof(shared::FilmTile));
+  bind(4, awake_, 0, awake_.bytes());
+  bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
   const auto image = [&](GLuint unit, const gl::BufferTexture& texture, GLenum format) {
     gl_.BindImageTexture(unit, texture.name(), 0, GL_FALSE, 0, GL_READ_ONLY, format);
   };
   image(0, film_strips_[turn_], GL_RGBA32I);
   image(1, metric_nodes_, GL_RGBA32F);
-  image(2, drive, GL_RGBA32F);
   image(3, beads_strips_, GL_RGBA32UI);
   image(4, glass_strips_, GL_RGBA32UI);
-}
-
-void FilmGl::bindFlow(const Step& step) {
-  bindState(step);
-  showDrive(ordered_drive_nodes_, step);
-  bindImages(ordered_drive_nodes_);
-  bind(2, begun_->report, step.report_at, tiles_ * sizeof(shared::FilmTile));
-  bind(4, awake_, 0, awake_.bytes());
-  bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
 }
 
 // Over the tiles that the kernel `wake` listed in this turn; `command_at`: in the turns' commands.
