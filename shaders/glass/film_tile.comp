@@ -271,9 +271,10 @@ void tellAll(int t, FilmTexel now, int dried_pl) {
 }
 
 void begin() {
-  if (lane() != 0) return;
-  stirring = stirs_next = most_pl = drained_pl = blown_pl = 0;
-  giver = kTileTexels;
+  if (lane() == 0) {
+    stirring = stirs_next = most_pl = drained_pl = blown_pl = 0;
+    giver = kTileTexels;
+  }
 }
 
 void step() {

@@ -202,6 +202,20 @@ class ProgramBuild {
   bool built_ = false;
 };
 
+// Some drivers use no threads before they are asked to: as many as they like, as 2^32 - 1 means.
+BegunPrograms::BegunPrograms(GladGLContext& gl) : gl_(gl) {
+  gl.userptr = this;
+  if (gl.MaxShaderCompilerThreadsKHR == nullptr) return;
+  gl.GetIntegerv(GL_MAX_SHADER_COMPILER_THREADS_KHR, &threads_);
+  gl.MaxShaderCompilerThreadsKHR(0xffffffffu);
+}
+
+BegunPrograms::~BegunPrograms() {
+  gl_.userptr = nullptr;
+  if (gl_.MaxShaderCompilerThreadsKHR != nullptr)
+    gl_.MaxShaderCompilerThreadsKHR(static_cast<GLuint>(threads_));
+}
+
 void BegunPrograms::finish() {
   for (const auto& build : builds_) build->finish();
   builds_.clear();

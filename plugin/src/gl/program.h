@@ -49,8 +49,8 @@ class ProgramBuild;
 // as they are first needed.
 class BegunPrograms {
  public:
-  explicit BegunPrograms(GladGLContext& gl) : gl_(gl) { gl.userptr = this; }
-  ~BegunPrograms() { gl_.userptr = nullptr; }
+  explicit BegunPrograms(GladGLContext& gl);
+  ~BegunPrograms();
   BegunPrograms(const BegunPrograms&) = delete;
   BegunPrograms& operator=(const BegunPrograms&) = delete;
   void finish();  // throws as Program does, for the first that fails
@@ -58,6 +58,7 @@ class BegunPrograms {
  private:
   friend class Program;
   GladGLContext& gl_;
+  GLint threads_ = 0;  // that the host lets the driver use
   std::vector<std::shared_ptr<ProgramBuild>> builds_;
 };
 
