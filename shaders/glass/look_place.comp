@@ -44,7 +44,8 @@ Place placeOf(GlassDropRecord drop) {
 // Drops on wettable glass keep the ragged outline in which they met others; small ones and those on coated glass are round.
 float irregularityOf(GlassDropRecord drop) {
   if (drop.seed == 0u) return 0.0;
-  return smoothstep(radians(85.0), radians(40.0), drop.contact_angle_rad) * smoothstep(0.5e-3, 2.0e-3, drop.base_radius_m);
+  float contact_angle_rad = 2.0 * atan(drop.height_m / drop.base_radius_m); // of a round cap as high over a base of this area
+  return smoothstep(radians(85.0), radians(40.0), contact_angle_rad) * smoothstep(0.5e-3, 2.0e-3, drop.base_radius_m);
 }
 
 // How far the cap's shadow on the glass, cast along the view ray, reaches along (1, slope) from the middle, in the space where the base is a

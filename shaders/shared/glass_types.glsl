@@ -18,10 +18,10 @@ struct GlassDropRecord {
   vec2 heading;            // unit, grid axes: along the base
   float base_radius_m;     // of the circle of the base's area, real metres
   float height_m;          // of the cap of this base and volume: a spherical one as wide, stretched along the heading
-  float contact_angle_rad; // of a round cap as high over a base of this area
   float elongation;        // length : width of the base, >= 1
-  uint seed;               // for an outline that is its own
   float corner;            // 0: an ellipse .. 1: the end that its heading leaves is a corner, see cornered(); < 0: the other end is
+  uint seed;               // for an outline that is its own
+  uint unused;             // arrays' strides are whole vec2
 };
 RG_SIZE(GlassDropRecord, 48)
 

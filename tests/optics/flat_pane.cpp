@@ -84,7 +84,6 @@ GlassDropRecord FlatPane::cap(double u_m, double v_m, double base_radius_m, doub
   drop.heading = glm::vec2(0.0f, -1.0f);
   drop.base_radius_m = static_cast<float>(base_radius_m);
   drop.height_m = static_cast<float>(base_radius_m * std::tan(0.5 * contact_rad));
-  drop.contact_angle_rad = static_cast<float>(contact_rad);
   drop.elongation = 1.0f;
   return drop;
 }

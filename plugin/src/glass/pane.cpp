@@ -382,8 +382,6 @@ std::shared_ptr<const PaneSnapshot> PaneSim::snapshot() const {
     record.heading = drop.heading;
     record.base_radius_m = drop.base_radius_m;
     record.height_m = drop.height_m;
-    record.contact_angle_rad = static_cast<float>(
-        capAngle(static_cast<double>(drop.height_m), static_cast<double>(drop.base_radius_m)));
     record.elongation = drop.elongation;
     record.seed = drop.seed;
     record.corner = drop.corner;
