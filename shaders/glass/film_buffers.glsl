@@ -14,16 +14,12 @@ const int kFields = 8, kFilmLow = 2, kFilmHigh = 3, kBeadsPl = 7; // of FilmTile
 struct TileState {
   int stirs[2]; // holds water that may flow, or was changed from outside: as this turn's kernels ask, and as they tell the next
   int awake; // in the last step
-  int last[kFields]; // its last report
+  int lies[3]; // of its last report: low and high part of the film, beads
 };
 layout(std430, binding = 5) buffer States { TileState states[]; };
 
 layout(location = 0) uniform int count;
 layout(location = 1) uniform int turn; // of two, one for every other step
-
-// Groups in rows, as GL promises no more than 65535 along an axis.
-const uint kGroupsInRow = 32768u;
-uint groupInRows() { return gl_WorkGroupID.y * kGroupsInRow + gl_WorkGroupID.x; }
 
 const int kStrips = kTileSize / kStripSize; // of a tile's row
 

@@ -72,9 +72,7 @@ void main() {
   barrier();
   if (!here || lane != 0) return;
   Left left = left_on[tile_in_group];
-  states[t].last[kFilmLow] = int(left.film_low_pl);
-  states[t].last[kFilmHigh] = int(left.film_high);
-  states[t].last[kBeadsPl] = int(left.beads_pl);
+  states[t].lies = int[3](int(left.film_low_pl), int(left.film_high), int(left.beads_pl));
   tiles[t].film_low_pl = left.film_low_pl;
   tiles[t].film_high = left.film_high;
   tiles[t].evaporated_pl = left.dried_pl;

@@ -277,7 +277,9 @@ void report(int t, ivec2 tile, int lane, Offering own) {
     int sum = known[field];
     for (int k = first; field > 1 && k < first + kWalks; ++k) sum += toldBy(k, field);
     tiles[t * kFields + field] = sum;
-    states[t].last[field] = sum;
+    if (field == kFilmLow) states[t].lies[0] = sum;
+    if (field == kFilmHigh) states[t].lies[1] = sum;
+    if (field == kBeadsPl) states[t].lies[2] = sum;
   }
   if (lane == 0) {
     int stirs = 0;

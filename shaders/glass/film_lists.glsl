@@ -2,6 +2,10 @@
 // between a kernel and the next: glass/film_tile.comp is for it.
 #include "glass/film_buffers.glsl"
 
+// Groups in rows, as GL promises no more than 65535 along an axis.
+const uint kGroupsInRow = 32768u;
+uint groupInRows() { return gl_WorkGroupID.y * kGroupsInRow + gl_WorkGroupID.x; }
+
 // How many tiles a step looks at, and the command for as many groups as they need.
 struct AwakeTiles { uint groups_x, groups_y, groups_z, number; };
 

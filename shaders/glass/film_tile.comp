@@ -1,6 +1,6 @@
 // For GPUs all that a film step does after what changes the film and blades, as glass/film_flow.comp and glass/film_dry.comp have it: a group is a tile,
 // an invocation a texel of it, which works out its own law and hears of others through shared memory; so a law is worked out 1.25 times, a face's flow
-// once. A group finds out by itself whether its tile is awake or to dry, and one more tells of the ridges, as a kernel that waits for another costs more
+// 1.06 times. A group finds out by itself whether its tile is awake or to dry, and one of a row more tells of the ridges, as a kernel that waits for another costs more
 // than groups with nothing to do.
 //
 // How fast it is hangs on how many groups a processor holds, and that on how little shared memory one needs: of an NVIDIA H200's 228 KiB OpenGL gives 48
@@ -57,7 +57,7 @@ void tell(int t, FilmTile told) {
 void sleep(int t) {
   states[t].awake = 0;
   states[t].stirs[1 - turn] = 0;
-  tell(t, FilmTile(-1, 0, uint(states[t].last[kFilmLow]), uint(states[t].last[kFilmHigh]), 0, 0, 0, uint(states[t].last[kBeadsPl])));
+  tell(t, FilmTile(-1, 0, uint(states[t].lies[0]), uint(states[t].lies[1]), 0, 0, 0, uint(states[t].lies[2])));
 }
 
 void tellRidges() {
@@ -102,14 +102,14 @@ void lookAtState(int k) {
 
 // Each by invocations that have the least else to load.
 void load(int t) {
-  const int kFilmAbout = kSeenRow * kSeenRow - kTileTexels, kNodesFrom = 160, kStatesFrom = 192, kAwakeAt = 224, kLastAt = 225;
+  const int kFilmAbout = kSeenRow * kSeenRow - kTileTexels, kNodesFrom = 160, kStatesFrom = 192, kAwakeAt = 224, kLiesAt = 225;
   loadFilm(laneAt());
   int k = lane();
   if (k < kFilmAbout) loadFilm(aboutTile(k));
   else if (k >= kNodesFrom && k < kNodesFrom + kNodes * kNodes) loadNode(k - kNodesFrom);
   else if (k >= kStatesFrom && k < kStatesFrom + 5) lookAtState(k - kStatesFrom);
   else if (k == kAwakeAt) was_awake = states[t].awake;
-  else if (k == kLastAt) lies = states[t].last[kFilmLow] | states[t].last[kFilmHigh] | states[t].last[kBeadsPl];
+  else if (k == kLiesAt) lies = states[t].lies[0] | states[t].lies[1] | states[t].lies[2];
 }
 
 int nodeAt(ivec2 at) { return ((at.y >> 4) + 1) * kNodes + (at.x >> 4) + 1; }
@@ -187,9 +187,9 @@ void passOver(ivec2 at, FilmCell me) {
 void leavePane(ivec4 over_pl) {
   bvec4 up = greaterThan(vec4(-info.up_x, info.up_x, -info.up_y, info.up_y), vec4(0.5));
   ivec4 up_pl = over_pl * ivec4(up);
-  int blown = up_pl.x + up_pl.y + up_pl.z + up_pl.w, all = over_pl.x + over_pl.y + over_pl.z + over_pl.w;
+  int blown = up_pl.x + up_pl.y + up_pl.z + up_pl.w, drained = over_pl.x + over_pl.y + over_pl.z + over_pl.w - blown;
   if (blown != 0) atomicAdd(blown_pl, blown);
-  if (all != blown) atomicAdd(drained_pl, all - blown);
+  if (drained != 0) atomicAdd(drained_pl, drained);
 }
 
 FilmTexel flowed(ivec2 at, int volume_pl, uint lay, vec4 metric_here) {
@@ -225,11 +225,11 @@ ivec4 summed(ivec4 own) {
     cell_pl[first] = sum;
   }
   barrier();
-  ivec4 all = ivec4(0);
+  ivec4 total = ivec4(0);
   if (lane() == 0) {
-    for (int k = 0; k < kStage; ++k) all += ivec4(cell_pl[k], cell_pl[kCells + k], cell_pl[2 * kCells + k], cell_pl[3 * kCells + k]);
+    for (int k = 0; k < kStage; ++k) total += ivec4(cell_pl[k], cell_pl[kCells + k], cell_pl[2 * kCells + k], cell_pl[3 * kCells + k]);
   }
-  return all;
+  return total;
 }
 
 // What its texel's film and beads come to.
@@ -246,7 +246,8 @@ FilmTexel flow(uint lay, int level, int level_beside, vec4 metric_here) {
   return given(now);
 }
 
-// One that sleeps stays asleep, and nothing brings one copy of its film to the other: both are written.
+// One that sleeps stays asleep, and nothing brings one copy of its film to the other: both are written. A group beside may be reading the one before: it
+// finds a film that lies still there, dried or not, which closes no front (a test of the presets) and asks for nothing.
 void put(FilmTexel now, uint lay) {
   int place = placeIn(laneAt());
   if (stirring == 0 && now.film_pl != film[seenAt(laneAt())]) before[place] = now.film_pl;
@@ -265,9 +266,7 @@ void tellAll(int t, FilmTexel now, int dried_pl) {
                    sum.w, uint(sum.z)));
   states[t].awake = stirring;
   states[t].stirs[1 - turn] = stirs_next;
-  states[t].last[kFilmLow] = sum.x;
-  states[t].last[kFilmHigh] = sum.y;
-  states[t].last[kBeadsPl] = sum.z;
+  states[t].lies = int[3](sum.x, sum.y, sum.z);
 }
 
 void begin() {
@@ -277,7 +276,7 @@ void begin() {
   }
 }
 
-void step() {
+void stepTile() {
   int t = tile().y * tiles().x + tile().x;
   begin();
   barrier();
@@ -303,8 +302,8 @@ void step() {
   }
 }
 
-// The last row of groups has no tiles.
+// Where ridges are to be told of the last row of groups has no tiles.
 void main() {
-  if (tile().y < tiles().y) step();
+  if (tile().y < tiles().y) stepTile();
   else if (tile().x == 0) tellRidges();
 }

@@ -24,7 +24,7 @@ void main() {
   bool now = wakes(t), looked_at = now || states[t].awake != 0;
   states[t].awake = int(now);
   // Of what came to it in this step its state does not know yet.
-  if (driesNow(uint(t), info) && (looked_at || (states[t].last[kFilmLow] | states[t].last[kFilmHigh] | states[t].last[kBeadsPl]) != 0)) {
+  if (driesNow(uint(t), info) && (looked_at || (states[t].lies[0] | states[t].lies[1] | states[t].lies[2]) != 0)) {
     uint place = atomicAdd(drying[turn].number, 1u);
     listed[uint(count) + place] = now ? t : -1 - t;
     AwakeTiles groups = groupsUpTo(place / uint(kTilesInDryGroup));
@@ -39,6 +39,6 @@ void main() {
     atomicMax(awake[turn].groups_y, groups.groups_y);
   } else {
     states[t].stirs[1 - turn] = 0;
-    tiles[t] = FilmTile(-1, 0, uint(states[t].last[kFilmLow]), uint(states[t].last[kFilmHigh]), 0, 0, 0, uint(states[t].last[kBeadsPl]));
+    tiles[t] = FilmTile(-1, 0, uint(states[t].lies[0]), uint(states[t].lies[1]), 0, 0, 0, uint(states[t].lies[2]));
   }
 }

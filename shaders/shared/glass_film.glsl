@@ -1,5 +1,5 @@
 // What one film step does to a texel, from whole picolitres to whole picolitres: taken here, given there, so water is neither made nor lost in any
-// order. Runs in shaders/glass/film_flow.comp, and in C++ for tests.
+// order. Runs in the film's kernels, and in C++ for tests.
 #ifndef RG_SHARED_GLASS_FILM_GLSL
 #define RG_SHARED_GLASS_FILM_GLSL
 #include "shared/compat.glsl"

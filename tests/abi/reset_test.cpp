@@ -47,6 +47,7 @@ TEST_F(Reset, givesTheStateAndThePicturesOfAFreshInstance) {
   for (const SmallScene* scene : {&fresh, &used})
     scene->expect(scene->api.set_parameter(scene->instance, "rain.beyond", 0.05));
   const std::vector<Seen> expected = drive(fresh, kFrames);
+  // 0.05 where drops refract the sky.
   ASSERT_GT(greatestDifference(expected.front().picture, expected.back().picture), 0.03f)
       << "nothing is seen";
   for (const int frames_before : {1, 2, 40}) {

@@ -283,6 +283,26 @@ TEST_F(Film, anyNumberOfTexelsIsTakenInAStep) {
   EXPECT_EQ(second[0].taken_pl, std::vector<int>(kTakes, kEach_pl));
 }
 
+// Films that lie still on both sides of a texel take it between them by no more than their own thickness: a
+// tile may dry while the next one looks at it.
+TEST(FilmLaw, filmsThatLieStillCloseNoFront) {
+  for (const glass::Glass glass :
+       {glass::Glass::uncoated, glass::Glass::dirty, glass::Glass::coated, glass::Glass::new_coating}) {
+    const glass::Surface surface = glass::surfaceOf(glass);
+    const auto pin_m = static_cast<float>(surface.pin_m);
+    shared::FilmStepInfo info{};
+    info.pin_m = pin_m;
+    info.front_m = static_cast<float>(surface.front_m);
+    const shared::vec4 metric(3e-3f, 3e-3f, 1.0f / 9e-6f, 0.0f);
+    const int still_pl = static_cast<int>(0.999 * surface.pin_m * 9e-6 * 1e15);
+    for (int level = 0; level <= shared::kMostUneven; ++level) {
+      const shared::FilmAround around = shared::filmAround(0, still_pl, still_pl, still_pl, still_pl);
+      EXPECT_GT(shared::filmCell(0, around, level, shared::vec4(0.0f), metric, info).entry_m, 0.0f)
+          << "glass " << static_cast<int>(glass) << ", level " << level;
+    }
+  }
+}
+
 // tau > (2/3) rho g h sin a turns the net flow of a film round (physics.md 4).
 TEST(FilmLaw, windShearTurnsTheFlowRound) {
   const float h = 100e-6f, g = 9.81f * 0.5f;

@@ -63,7 +63,10 @@ void Buffer::read(size_t offset, void* data, size_t bytes) const {
 }
 
 void* Buffer::map(size_t offset, size_t bytes, GLbitfield access) {
-  return gl().MapNamedBufferRange(name(), signedSize(offset), signedSize(bytes), access);
+  void* mapped = gl().MapNamedBufferRange(name(), signedSize(offset), signedSize(bytes), access);
+  if (mapped == nullptr)
+    throw Error(Error::Kind::kDriver, "the driver maps no buffer of " + std::to_string(bytes_) + " bytes");
+  return mapped;
 }
 
 int fullMipLevels(int width, int height) {

@@ -74,10 +74,11 @@ class Buffer : public Object<detail::deleteBuffer> {
   void write(size_t offset, std::span<const T> data) {
     write(offset, data.data(), data.size_bytes());
   }
-  void zero();                                                // all of it, on the GPU
-  void zero(size_t offset, size_t bytes);                     // both multiples of 4
-  void read(size_t offset, void* data, size_t bytes) const;   // waits for the GPU
-  void* map(size_t offset, size_t bytes, GLbitfield access);  // for persistently mapped rings
+  void zero();                                               // all of it, on the GPU
+  void zero(size_t offset, size_t bytes);                    // both multiples of 4
+  void read(size_t offset, void* data, size_t bytes) const;  // waits for the GPU
+  void* map(size_t offset, size_t bytes,
+            GLbitfield access);  // for persistently mapped rings; throws Error::kDriver
 
  private:
   size_t bytes_ = 0;

@@ -202,18 +202,23 @@ class ProgramBuild {
   bool built_ = false;
 };
 
-// Some drivers use no threads before they are asked to: as many as they like, as 2^32 - 1 means.
+namespace {
+constexpr GLuint kAsManyAsItLikes = 0xffffffffu;
+}
+
+// Some drivers use no threads before they are asked to.
 BegunPrograms::BegunPrograms(GladGLContext& gl) : gl_(gl) {
   gl.userptr = this;
   if (gl.MaxShaderCompilerThreadsKHR == nullptr) return;
-  gl.GetIntegerv(GL_MAX_SHADER_COMPILER_THREADS_KHR, &threads_);
-  gl.MaxShaderCompilerThreadsKHR(0xffffffffu);
+  GLint64 threads = 0;
+  gl.GetInteger64v(GL_MAX_SHADER_COMPILER_THREADS_KHR, &threads);
+  threads_ = static_cast<GLuint>(threads);
+  gl.MaxShaderCompilerThreadsKHR(kAsManyAsItLikes);
 }
 
 BegunPrograms::~BegunPrograms() {
   gl_.userptr = nullptr;
-  if (gl_.MaxShaderCompilerThreadsKHR != nullptr)
-    gl_.MaxShaderCompilerThreadsKHR(static_cast<GLuint>(threads_));
+  if (gl_.MaxShaderCompilerThreadsKHR != nullptr) gl_.MaxShaderCompilerThreadsKHR(threads_);
 }
 
 void BegunPrograms::finish() {

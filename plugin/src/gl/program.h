@@ -58,7 +58,7 @@ class BegunPrograms {
  private:
   friend class Program;
   GladGLContext& gl_;
-  GLint threads_ = 0;  // that the host lets the driver use
+  GLuint threads_ = 0;  // that the host lets the driver use
   std::vector<std::shared_ptr<ProgramBuild>> builds_;
 };
 

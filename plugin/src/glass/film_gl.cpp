@@ -131,9 +131,9 @@ void FilmGl::clear() {
     if (map_.inside(i)) dry[place(i)] = 0;
   }
   for (gl::Buffer& film : film_) film.write(0, std::span<const int32_t>(dry));
-  beads_.zero();
-  ridges_.zero();
-  states_.zero();
+  // Not cleared: what a driver (NVIDIA 580) is told to clear it may clear after what is written next.
+  const std::vector<unsigned char> zeros(std::max({beads_.bytes(), ridges_.bytes(), states_.bytes()}), 0);
+  for (gl::Buffer* buffer : {&beads_, &ridges_, &states_}) buffer->write(0, zeros.data(), buffer->bytes());
   awake_.write(0, std::span<const uint32_t>(kNoneAwake));
   dry_ = true;
   picture_is_old_ = beads_picture_is_old_ = true;
@@ -355,7 +355,7 @@ void FilmGl::set(const FilmState& state) {
   const std::vector<int32_t> film = inTiles<int32_t>(state.film_pl, -1);
   for (gl::Buffer& buffer : film_) buffer.write(0, std::span<const int32_t>(film));
   beads_.write(0, std::span<const uint32_t>(inTiles<uint32_t>(state.beads, 0)));
-  // In one go: what a driver (NVIDIA 580) clears it may clear after what is written next.
+  // In one go, see clear().
   std::vector<int32_t> ridges(kRidgeBytes / sizeof(int32_t), 0);
   std::copy(state.ridge_pl.begin(), state.ridge_pl.end(), ridges.begin());
   ridges_.write(0, std::span<const int32_t>(ridges));
@@ -377,7 +377,7 @@ std::vector<T> FilmGl::inTiles(const std::vector<T>& texels, T off) const {
 
 // As the step that came before left them: of its report only what lies there is asked for again.
 std::vector<uint32_t> FilmGl::tileStates(const FilmState& state) const {
-  constexpr size_t kFilmLow = kTileLast + 2, kFilmHigh = kTileLast + 3, kBeads = kTileLast + 7;
+  constexpr size_t kFilmLow = kTileLies, kFilmHigh = kTileLies + 1, kBeads = kTileLies + 2;
   std::vector<uint32_t> states(tiles_ * kTileFields, 0);
   const glm::ivec2 size = map_.grid().size;
   for (int i = 0; i < map_.texelCount(); ++i) {

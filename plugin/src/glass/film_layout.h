@@ -11,10 +11,10 @@
 
 namespace rg::glass {
 
-inline constexpr size_t kAlign = 256;      // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
-inline constexpr size_t kTileFields = 11;  // TileState in film_buffers.glsl
+inline constexpr size_t kAlign = 256;     // GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT is at most this
+inline constexpr size_t kTileFields = 6;  // TileState in film_buffers.glsl
 inline constexpr size_t kTileAwake = 2,
-                        kTileLast = 3;  // of those: after how each turn stirs; its last report
+                        kTileLies = 3;  // of those: after how each turn stirs; what lies there
 inline constexpr size_t kTileStateBytes = kTileFields * sizeof(int32_t);
 inline constexpr std::array<uint32_t, 16> kNoneAwake{
     0, 1, 1, 0, 0, 1, 1, 0,
@@ -29,12 +29,13 @@ struct UploadLayout {
   explicit UploadLayout(const FilmOrder& order) {
     info = next(sizeof(shared::FilmStepInfo));
     drive = next(order.drive.size() * sizeof(shared::vec4));
-    changes = next((order.takes.size() + order.slid.size() + order.adds.size() + order.bead_adds.size() +
-                    order.ridge_adds.size()) *
-                   sizeof(shared::FilmChange));
+    // Where there is nothing something is bound all the same.
+    const size_t most_changes = order.takes.size() + order.slid.size() + order.adds.size() +
+                                order.bead_adds.size() + order.ridge_adds.size();
+    changes = next(std::max<size_t>(most_changes, 1) * sizeof(shared::FilmChange));
     ranges = next(order.sweep_ranges.size() * sizeof(shared::SweptRange));
     leaves = next(order.leaves.size() * sizeof(shared::RidgeLeave));
-    texels = next(order.leave_texels.size() * sizeof(int));
+    texels = next(std::max<size_t>(order.leave_texels.size(), 1) * sizeof(int));
   }
   size_t next(size_t part) { return std::exchange(bytes, bytes + aligned(part)); }
   size_t bytes = 0;

@@ -33,7 +33,7 @@ struct SlidTexel {
 };
 
 // Order of work in a step: takes, what slides, adds of film and of beads, ridge adds, sweeps one after the
-// other, leaves, flow.
+// other, leaves, flow, drying.
 struct FilmOrder {
   int64_t step = -1;
   bool clear = false;  // no step: the film is to be dry

@@ -177,6 +177,7 @@ bool FilmGl::wake(const Step& step) {
 }
 
 bool FilmGl::flow(const Step& step) {
+  bindDrive(step);
   bindFlow(step);
   bind(3, film_[1 - turn_], 0, film_[1 - turn_].bytes());
   dispatchListed(programs_->flow, 0);
@@ -217,10 +218,8 @@ void FilmGl::bindDrive(const Step& step) {
 
 void FilmGl::bindFlow(const Step& step) {
   bindState(step);
-  bindDrive(step);
   bind(2, begun_->report, step.report_at, tiles_ * sizeof(shared::FilmTile));
   bind(4, awake_, 0, awake_.bytes());
-  bind(7, film_[1 - turn_], 0, film_[1 - turn_].bytes());
   const auto image = [&](GLuint unit, const gl::BufferTexture& texture, GLenum format) {
     gl_.BindImageTexture(unit, texture.name(), 0, GL_FALSE, 0, GL_READ_ONLY, format);
   };
