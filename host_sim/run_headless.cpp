@@ -8,6 +8,7 @@
 #include "budget.h"
 #include "image/png.h"
 #include "image/video.h"
+#include "progress.h"
 #include "report.h"
 #include "run.h"
 #include "schedule.h"
@@ -16,11 +17,13 @@
 namespace host {
 namespace {
 
-void showProgress(double time_s, double seconds, uint64_t frames, double wall_s) {
+void show(Progress& progress, double time_s, double seconds, uint64_t frames, double wall_s) {
   if (isatty(2) == 0) return;
-  const double left_s = time_s > 0.0 ? wall_s / time_s * (seconds - time_s) : 0.0;
-  std::fprintf(stderr, "\r%6.1f of %.1f s, %llu pictures, %.0f s to go   ", time_s, seconds,
-               static_cast<unsigned long long>(frames), left_s);
+  const std::optional<double> left_s = progress.left_s(time_s, wall_s);
+  std::fprintf(stderr, "\r%6.1f of %.1f s, %llu pictures", time_s, seconds,
+               static_cast<unsigned long long>(frames));
+  if (left_s) std::fprintf(stderr, ", %.0f s to go", *left_s);
+  std::fprintf(stderr, "        ");  // over what the line before had more
 }
 
 }  // namespace
@@ -50,6 +53,7 @@ int runHeadless(const Options& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   Report report;
+  Progress progress(scenario.seconds);
   if (saved)
     restoreFrom(stage, *saved, options.restore);
   else
@@ -64,7 +68,7 @@ int runHeadless(const Options& options) {
     if (!budget.empty()) reference.run();
     if (!e.shot.empty()) writePng(options.out / e.shot, picture.read(), options.size_px.x, options.size_px.y);
     if (video) video->add(picture.read());
-    showProgress(static_cast<double>(e.time_ns) * 1e-9, scenario.seconds, report.frames, wall_s());
+    show(progress, static_cast<double>(e.time_ns) * 1e-9, scenario.seconds, report.frames, wall_s());
   }
   if (isatty(2) != 0) std::fprintf(stderr, "\n");
   if (video) video->finish();
