@@ -39,12 +39,12 @@ ensure_packages() {
   rm -f "$log"
 }
 
-# build_preset NAME [TESTS]: configures (when needed) and builds, of the test programs those of a ;-list, or all.
+# build_preset NAME [TESTS [TARGET...]]: configures (when needed) and builds these targets, or all, of the test programs those of a ;-list, or all.
 build_preset() {
   case "$1" in debug | release | asan | tsan) ;; *) die "no preset '$1'; there are debug, release, asan, tsan" ;; esac
   cmake --preset "$1" -DRG_TESTS="${2:-}" >"/tmp/rainglass-configure.$$" 2>&1 || { cat "/tmp/rainglass-configure.$$" >&2; rm -f "/tmp/rainglass-configure.$$"; die "configuring $1 failed"; }
   rm -f "/tmp/rainglass-configure.$$"
-  cmake --build --preset "$1"
+  cmake --build --preset "$1" ${3:+--target "${@:3}"}
 }
 
 # Software GL re-allocates its tile buffers every frame; kept in the heap they cost nothing.
