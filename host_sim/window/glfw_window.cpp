@@ -18,7 +18,8 @@ std::string glfwMessage() {
 class GlfwWindow final : public Window {
  public:
   GlfwWindow(const std::string& title, glm::ivec2 size, bool debug) {
-    if (!glfwInit()) throw std::runtime_error("no window can be opened: " + glfwMessage());
+    if (!glfwInit())
+      throw std::runtime_error("no window can be opened (--headless needs none): " + glfwMessage());
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

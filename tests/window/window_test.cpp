@@ -183,6 +183,7 @@ TEST(WindowRefused, withoutAnyServerOnTheDisplayItIsOneLine) {
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
   EXPECT_NE(run.err.find(":6543"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("--headless"), std::string::npos) << run.err;
 }
 
 TEST(WindowRefused, whatNeedsNoWindowIsRefusedInOne) {
