@@ -70,7 +70,7 @@ SavedRun readRun(const std::filesystem::path& file, const Scenario& scenario) {
   if (!in) refuse(file, "cannot be read");
   const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   const size_t end = all.find('\n');
-  if (end == std::string::npos || end > kLongestLine) refuse(file, "is no run that host_sim saved");
+  if (end > kLongestLine) refuse(file, "is no run that host_sim saved");  // npos is, too
   try {
     const auto json = nlohmann::json::parse(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(end));
     SavedRun run = parsed(json);

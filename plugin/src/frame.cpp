@@ -66,7 +66,7 @@ void Frame::removeVehicle(uint32_t id) {
     if (p.vehicle != id) continue;
     removeWipersOf(pane_id);
     partPane(pane_id);
-    std::erase_if(washes_, [&](const WashObject& wash) { return wash.pane == pane_id; });
+    std::erase_if(washes_, [on = pane_id](const WashObject& wash) { return wash.pane == on; });
     timeline_.removeOpening(pane_id);
   }
   known |= std::erase_if(panes_, [id](const auto& p) { return p.second.vehicle == id; }) > 0;

@@ -181,9 +181,9 @@ void Frame::writeParts(Writer& body, const FilmStates& films) const {
       a.text(p.sim->name(), kLongestName);
     }
   });
-  for (const auto& [id, p] : panes_) {
-    writePart(body, "pane", [&](Writer& a) {
-      const auto film = films.find(id);
+  for (const auto& [id, object] : panes_) {
+    const auto film = films.find(id);
+    writePart(body, "pane", [&, &p = object](Writer& a) {  // clang captures no bindings before 16
       visitPane(a, p);
       p.fog->write(a);
       p.sim->write(a, film != films.end() ? &film->second : nullptr);

@@ -215,10 +215,10 @@ void Drops::takeOnTheWay(const DropWorld& world, int slot, glm::dvec2 from_m, gl
                          double width_m) {
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const glm::dvec2 way_m = drop.place_m - from_m;
-  const double steps = std::ceil(glm::length(way_m) / world.map.grid().texel_m);
+  const int steps = static_cast<int>(std::ceil(glm::length(way_m) / world.map.grid().texel_m));
   int last = drop.texel;
-  for (double step = 1.0; step <= steps; ++step) {
-    const glm::dvec2 place_m = from_m + way_m * (step / steps);
+  for (int step = 1; step <= steps; ++step) {
+    const glm::dvec2 place_m = from_m + way_m * (static_cast<double>(step) / steps);
     const int texel = world.map.texelAt(place_m);
     if (texel >= 0 && texel != last) takeAcross(world, slot, place_m, ahead, width_m);
     last = texel;

@@ -454,7 +454,7 @@ bool Shelter::surfaceAt(const dvec3& place, double ago_s, double within, Surface
   const auto consider = [&](const Convex& shape, const Pose& pose) {
     const dvec3 local = intoBody(pose, place);
     double outside = -1e30;
-    const Plane* face = nullptr;
+    const Plane* face = &shape.planes.front();
     for (const Plane& plane : shape.planes) {
       const double d = glm::dot(plane.normal, local) - plane.d;
       if (d > outside) outside = d, face = &plane;
