@@ -34,6 +34,8 @@ struct Spread {
 };
 
 inline float inSteps_m(double mm) {
+  // Sizes are above 0, and lround would not do several at a time.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return static_cast<float>(static_cast<double>(static_cast<int32_t>(mm * 1e4 + 0.5)) * 1e-7);
 }
 

@@ -32,6 +32,7 @@ constexpr dvec2 kSearch_m{-1.2, 1.8}, kWideSearch_m{-3.0, 1.0};
 constexpr double kBonnet_m = 0.9, kVehicle_m = 4.0;
 constexpr dvec2 kBonnetSearch_m{-0.4, 0.4};
 constexpr double kFarthestCell = 1e9;  // where cells can still be told apart
+using Cell = glm::vec<2, int64_t>;     // of a layer
 // As far aside lines are looked for that slant into view, which keeps storms cheap.
 constexpr double kMostAside_m = 5.0;
 
@@ -176,26 +177,26 @@ class Cells {
     longest_s_ = layer.longest_s;
     const dvec2 eye = dvec2(cone_.eye_m - lattice.origin_m) / cell_m,
                 reach = dvec2((reach_m + aside_m) / cell_m);
-    const dvec2 first = glm::floor(eye - reach), last = glm::floor(eye + reach);
     if (!glm::all(glm::lessThan(glm::abs(eye), dvec2(kFarthestCell)))) return;
-    for (double y = first.y; y <= last.y; ++y) {
-      for (double x = first.x; x <= last.x; ++x) {
-        const dvec3 corner_m(dvec2(x, y) * cell_m + dvec2(lattice.origin_m - cone_.eye_m),
+    const Cell first(glm::floor(eye - reach)), last(glm::floor(eye + reach));
+    for (Cell cell = first; cell.y <= last.y; ++cell.y) {
+      for (cell.x = first.x; cell.x <= last.x; ++cell.x) {
+        const dvec3 corner_m(dvec2(cell) * cell_m + dvec2(lattice.origin_m - cone_.eye_m),
                              lattice.reference_m - cone_.eye_m.z);
         if (nearest_m(lattice, dvec2(corner_m), cell_m) > reach_m || !isInView(lattice, corner_m, cell_m))
           continue;
-        addEpochs(level | lattice.number << 2u | sort << 3u | lattice.name << 5u, numbers, dvec2(x, y),
+        addEpochs(level | lattice.number << 2u | sort << 3u | lattice.name << 5u, numbers, cell,
                   vec4(glm::vec3(corner_m), cell_m));
       }
     }
   }
 
-  void addEpochs(uint32_t level, const SplashesInCells& numbers, const dvec2& cell, const vec4& corner) {
+  void addEpochs(uint32_t level, const SplashesInCells& numbers, const Cell& cell, const vec4& corner) {
     const int64_t epoch = time_ns_ / kEpoch_ns - (time_ns_ % kEpoch_ns < 0 ? 1 : 0);
     shared::SplashJob job;
     job.corner = corner;
-    job.x = static_cast<uint32_t>(static_cast<int64_t>(cell.x));
-    job.y = static_cast<uint32_t>(static_cast<int64_t>(cell.y));
+    job.x = static_cast<uint32_t>(cell.x);
+    job.y = static_cast<uint32_t>(cell.y);
     job.level = level;
     for (int64_t begun = epoch;; --begun) {
       job.epoch = static_cast<uint32_t>(begun);
