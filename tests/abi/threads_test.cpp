@@ -44,9 +44,9 @@ struct Textures {
   }
 };
 
-// `scene` goes on by 100 steps on a thread of its own, `between` after each; meanwhile this thread makes
+// `scene` goes on by 100 frames on a thread of its own, `between` after each; meanwhile this thread makes
 // pictures of its newest moment, at least three.
-void atOnce(SmallScene& scene, const std::function<void(int step)>& between,
+void atOnce(SavedScene& scene, const std::function<void(int step)>& between,
             const std::function<void(int64_t moment_ns)>& picture) {
   std::atomic<int64_t> now_ns = scene.time_ns, drawn_ns = scene.time_ns;
   std::atomic<bool> done = false;
@@ -54,7 +54,7 @@ void atOnce(SmallScene& scene, const std::function<void(int step)>& between,
     for (int step = 0; step < 100; ++step) {
       // Pictures may lie at most 1 s back: on a busy machine the simulation waits for those who draw.
       while (scene.time_ns - drawn_ns > 500'000'000) std::this_thread::yield();
-      EXPECT_GE(scene.step(), 0) << scene.api.last_error(scene.instance);
+      EXPECT_NO_THROW(scene.frame());
       now_ns = scene.time_ns;
       between(step);
     }
