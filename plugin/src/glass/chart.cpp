@@ -263,7 +263,7 @@ glm::dvec2 metresPerUnit(const PaneInfo& info, const Chart& chart) {
 }
 
 Chart chartOf(const PaneInfo& info) {
-  const Chart given(info.uvs.begin(), info.uvs.end());
+  Chart given(info.uvs.begin(), info.uvs.end());
   const std::vector<uint32_t> welded = weld(info);
   const bool seams = hasSeams(info, welded);
 

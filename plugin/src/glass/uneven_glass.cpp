@@ -1,6 +1,7 @@
 #include "glass/uneven_glass.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shared/glass_film.glsl"
 
@@ -53,7 +54,7 @@ UnevenGlass::UnevenGlass(const PaneMap& map, uint32_t seed, double share) {
     const glm::dvec2 place_m = map.middleOf(i);
     const double sum = glm::mix(fine.at(place_m), coarse.at(place_m), kCoarseShare);
     const double contrasted = std::clamp(0.5 + share * kContrast * (sum - 0.5), 0.0, 1.0);
-    levels_.push_back(static_cast<uint8_t>(contrasted * shared::kMostUneven + 0.5));
+    levels_.push_back(static_cast<uint8_t>(std::lround(contrasted * shared::kMostUneven)));
   }
 }
 
