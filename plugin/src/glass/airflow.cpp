@@ -10,20 +10,48 @@ namespace rg::glass {
 
 namespace {
 
-glm::dvec3 airByShape(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
-                      const AirflowShape& shape) {
-  const double speed = glm::length(air_mps);
-  if (speed < 1e-6) return glm::dvec3(0.0);
+glm::vec2 accelerationOf(const glm::vec4& push) { return {push.x, push.y}; }
+glm::vec2 airOf(const glm::vec4& push) { return {push.z, push.w}; }
+
+// The free air as it comes to all nodes of a pane.
+struct FreeAir {
+  glm::dvec3 air_mps;
+  double speed_mps;
+  glm::dvec2 right;  // a metre to the right, grid axes
+  FreeAir(const PaneMap& map, const glm::dvec3& air)
+      : air_mps(air),
+        speed_mps(glm::length(air)),
+        right(map.gridFromGlass({1.0, 0.0}) - map.gridFromGlass({0.0, 0.0})) {}
+  glm::dvec3 over(const PaneNode& node, const AirflowShape& shape) const;
+};
+
+glm::dvec3 FreeAir::over(const PaneNode& node, const AirflowShape& shape) const {
+  if (speed_mps < 1e-6) return glm::dvec3(0.0);
   const double into = -glm::dot(air_mps, node.normal);  // > 0: blows against the glass
   glm::dvec3 along = air_mps + into * node.normal;
   // A windscreen raked at 30 degrees meets the wind with half its speed: that counts as facing it.
-  const double facing = std::clamp(2.0 * into / speed, -1.0, 1.0);
+  const double facing = std::clamp(2.0 * into / speed_mps, -1.0, 1.0);
   if (facing <= 0.0) return along * (1.0 + facing * (1.0 - shape.lee));
   along *= 1.0 - shape.stagnation * facing * (1.0 - node.height);
-  const glm::dvec2 right = map.gridFromGlass({1.0, 0.0}) - map.gridFromGlass({0.0, 0.0});
   const glm::dvec3 right_m = node.along_x * right.x + node.along_y * right.y;
   return along + right_m * (shape.outward * into * node.across);
 }
+
+// What a host's field tells of the air from ahead, and the shape of the rest.
+struct AirOverPane {
+  const Airflow& airflow;
+  double from_ahead_mps;
+  FreeAir by_shape;
+  AirOverPane(const PaneMap& map, const glm::dvec3& air_mps, const Airflow& airflow_over_it)
+      : airflow(airflow_over_it),
+        from_ahead_mps(std::max(0.0, -air_mps.x)),
+        by_shape(map, known() ? air_mps + glm::dvec3(from_ahead_mps, 0.0, 0.0) : air_mps) {}
+  bool known() const { return !airflow.ahead.share.empty(); }
+  glm::dvec3 at(const PaneNode& node) const {
+    const glm::dvec3 rest_mps = by_shape.over(node, airflow.shape);
+    return known() ? from_ahead_mps * airflow.ahead.at(node.across, node.height) + rest_mps : rest_mps;
+  }
+};
 
 // Of a place between the corners of its tile.
 struct InTile {
@@ -37,15 +65,13 @@ struct InTile {
     f = place - glm::vec2(cell);
     node = static_cast<size_t>(cell.y * row + cell.x);
   }
-  glm::vec2 mix(glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) const {
-    return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y);
+  glm::vec4 mix(const std::vector<glm::vec4>& nodes) const {
+    const glm::vec4* low = &nodes[node];
+    const glm::vec4* high = low + row;
+    return glm::mix(glm::mix(low[0], low[1], f.x), glm::mix(high[0], high[1], f.x), f.y);
   }
   glm::dvec2 metres(const PaneMap& map) const {
-    const shared::vec4* metric = &map.nodeMetric()[node];
-    const shared::vec4* next = metric + row;
-    return glm::dvec2(
-               mix(shared::xy(metric[0]), shared::xy(metric[1]), shared::xy(next[0]), shared::xy(next[1]))) /
-           map.grid().texel_m;
+    return glm::dvec2(shared::xy(mix(map.nodeMetric()))) / map.grid().texel_m;
   }
 };
 
@@ -65,11 +91,7 @@ glm::dvec3 AirflowField::at(double across, double height) const {
 
 glm::dvec3 airOverGlass(const PaneMap& map, const PaneNode& node, const glm::dvec3& air_mps,
                         const Airflow& airflow) {
-  if (airflow.ahead.share.empty()) return airByShape(map, node, air_mps, airflow.shape);
-  const double from_ahead_mps = std::max(0.0, -air_mps.x);
-  const glm::dvec3 rest_mps = air_mps + glm::dvec3(from_ahead_mps, 0.0, 0.0);
-  return from_ahead_mps * airflow.ahead.at(node.across, node.height) +
-         airByShape(map, node, rest_mps, airflow.shape);
+  return AirOverPane(map, air_mps, airflow).at(node);
 }
 
 void ForceField::setAirflow(Airflow airflow) {
@@ -85,30 +107,36 @@ void ForceField::make(const PaneMap& map, const glm::dvec3& acceleration_mps2, c
   air_mps_ = air_mps;
   slid_m_ = slid_m;
   const glm::dvec2 slid = map.acrossAndHeight(slid_m);
+  const AirOverPane air(map, air_mps, airflow_);
   nodes_.resize(map.nodes().size());
   for (size_t i = 0; i < nodes_.size(); ++i) {
     PaneNode node = map.nodes()[i];
     node.across = std::clamp(node.across + slid.x, -1.0, 1.0);
     node.height = std::clamp(node.height + slid.y, 0.0, 1.0);
-    nodes_[i].acceleration = glm::vec2(PaneMap::alongGlass(node, acceleration_mps2));
-    nodes_[i].air = glm::vec2(PaneMap::alongGlass(node, airOverGlass(map, node, air_mps, airflow_)));
+    const GlassAxes axes(node);
+    nodes_[i] = glm::vec4(glm::vec2(axes.along(acceleration_mps2)), glm::vec2(axes.along(air.at(node))));
   }
   findAbout(map);
 }
 
 void ForceField::findAbout(const PaneMap& map) {
   const glm::ivec2 count = map.nodeCount();
+  at_nodes_.resize(nodes_.size());
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const glm::vec2 acceleration = accelerationOf(nodes_[i]), air = airOf(nodes_[i]);
+    const float air_mps = glm::length(air);
+    at_nodes_[i] = {acceleration, air_mps * air, glm::length(acceleration), air_mps * air_mps};
+  }
   tiles_.assign(nodes_.size(), {});  // a tile has its first corner's number
   for (int y = 0; y + 1 < count.y; ++y) {
     for (int x = 0; x + 1 < count.x; ++x) {
       About& tile = tiles_[static_cast<size_t>(y * count.x + x)];
       for (const int corner : {0, 1, count.x, count.x + 1}) {
-        const NodePush& node = nodes_[static_cast<size_t>(y * count.x + x + corner)];
-        const float air_mps = glm::length(node.air);
-        tile.acceleration_mps2 += 0.25f * node.acceleration;
-        tile.air2_m2_s2 += 0.25f * air_mps * node.air;
-        tile.most_acceleration_mps2 = std::max(tile.most_acceleration_mps2, glm::length(node.acceleration));
-        tile.most_air2_m2_s2 = std::max(tile.most_air2_m2_s2, air_mps * air_mps);
+        const About& node = at_nodes_[static_cast<size_t>(y * count.x + x + corner)];
+        tile.acceleration_mps2 += 0.25f * node.acceleration_mps2;
+        tile.air2_m2_s2 += 0.25f * node.air2_m2_s2;
+        tile.most_acceleration_mps2 = std::max(tile.most_acceleration_mps2, node.most_acceleration_mps2);
+        tile.most_air2_m2_s2 = std::max(tile.most_air2_m2_s2, node.most_air2_m2_s2);
       }
     }
   }
@@ -119,19 +147,13 @@ int ForceField::tileAt(const PaneMap& map, glm::dvec2 grid_m) {
 }
 
 double ForceField::airSpeed_mps(const PaneMap& map, glm::dvec2 grid_m) const {
-  const InTile in(map, grid_m);
-  const NodePush* row = &nodes_[in.node];
-  const NodePush* next = row + in.row;
-  return static_cast<double>(glm::length(in.mix(row[0].air, row[1].air, next[0].air, next[1].air)));
+  return static_cast<double>(glm::length(airOf(InTile(map, grid_m).mix(nodes_))));
 }
 
 Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {
   const InTile in(map, grid_m);
-  const NodePush* row = &nodes_[in.node];
-  const NodePush* next = row + in.row;
-  return {glm::dvec2(
-              in.mix(row[0].acceleration, row[1].acceleration, next[0].acceleration, next[1].acceleration)),
-          glm::dvec2(in.mix(row[0].air, row[1].air, next[0].air, next[1].air)), in.metres(map)};
+  const glm::vec4 push = in.mix(nodes_);
+  return {glm::dvec2(accelerationOf(push)), glm::dvec2(airOf(push)), in.metres(map)};
 }
 
 glm::dvec2 ForceField::metresAt(const PaneMap& map, glm::dvec2 grid_m) {
@@ -146,8 +168,8 @@ std::vector<shared::vec4> ForceField::filmDrive() const {
   std::vector<shared::vec4> out;
   out.reserve(nodes_.size());
   for (const NodePush& node : nodes_) {
-    const glm::vec2 shear(shear_pa(glm::dvec2(node.air)));
-    out.emplace_back(node.acceleration.x, node.acceleration.y, shear.x, shear.y);
+    const glm::vec2 shear(shear_pa(glm::dvec2(airOf(node))));
+    out.emplace_back(node.x, node.y, shear.x, shear.y);
   }
   return out;
 }

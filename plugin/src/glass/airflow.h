@@ -67,13 +67,12 @@ class ForceField {
 
  private:
   void findAbout(const PaneMap& map);
-  struct NodePush {
-    glm::vec2 acceleration, air;
-  };
+  // xy acceleration, zw air: mixed together.
+  using NodePush = glm::vec4;
   Airflow airflow_;
   std::vector<NodePush> nodes_;
   glm::dvec3 acceleration_mps2_{1e300}, air_mps_{0.0}, slid_m_{0.0};
-  std::vector<About> tiles_;
+  std::vector<About> tiles_, at_nodes_;  // these of each node alone
 };
 
 }  // namespace rg::glass

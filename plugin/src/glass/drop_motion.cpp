@@ -78,6 +78,11 @@ double Drops::heldBy(const DropWorld& world, double film_m) const {
   return wetted ? std::max(2.0 - 2.0 * film_m / surface_.wetting_m, kLeast) : 1.0;
 }
 
+// Most panes have no film so thick, and no drop there has to be told what it lies on.
+double Drops::heldAt(const DropWorld& world, int texel) const {
+  return filmLetsGo(world) ? heldBy(world, world.film.thickness_m(texel)) : 1.0;
+}
+
 // Not where even the greatest forces of its tile together are too weak and all of them are what they were
 // when it took its shape: most drops, most of the time.
 bool Drops::mayMove(const DropWorld& world, int slot) const {
@@ -88,7 +93,7 @@ bool Drops::mayMove(const DropWorld& world, int slot) const {
   const glm::vec2 other =
       hold.acceleration_s2_m * about.acceleration_mps2 + hold.air2_s2_m2 * about.air2_m2_s2 - hold.share;
   float least = kRounding;
-  if (world.film.thickest_m() > 0.5 * surface_.wetting_m) {
+  if (filmLetsGo(world)) {
     const int row = world.map.nodeCount().x;  // a tile has its first corner's number
     const auto tile = static_cast<size_t>(hold.tile - hold.tile / row);
     least *= static_cast<float>(heldBy(world, world.film.mostAbout_m(tile)));
@@ -124,7 +129,7 @@ void Drops::slide(const DropWorld& world, int slot) {
   if (air > 0.0) force_n += drag.perSquare_n(widthAcross_m(drop, push.air_mps / air)) * air * push.air_mps;
   const double force = glm::length(force_n);
   const double dry_hold_n = hold_per_m_ * width_m;
-  const double hold_n = dry_hold_n * heldBy(world, world.film.thickness_m(drop.texel));
+  const double hold_n = dry_hold_n * heldAt(world, drop.texel);
   const glm::dvec2 toward = force > 0.0 ? force_n / force : glm::dvec2(0.0);
   if (drop.pose != Pose::moving && force <= hold_n) {
     if (reshape(slot, toward, force, 0.0, kRestStride * kTickSeconds)) {

@@ -95,9 +95,8 @@ int64_t Drops::volume_pl() const {
   return sum;
 }
 
-void Drops::become(int slot, Pose pose) {
+void Drops::change(int slot, Pose pose) {
   Pose& now = slots_.items[static_cast<size_t>(slot)].pose;
-  if (now == pose) return;
   const auto of = [this](Pose which) {
     return which == Pose::moving ? &moving_ : which == Pose::uneasy ? &uneasy_ : &braced_;
   };

@@ -179,7 +179,10 @@ class Drops {
 
     static void visit(auto& a, auto& slot);
   };
-  void become(int slot, Pose pose);
+  void become(int slot, Pose pose) {
+    if (slots_.items[static_cast<size_t>(slot)].pose != pose) change(slot, pose);
+  }
+  void change(int slot, Pose pose);
   std::vector<int32_t> linkOrder() const;
   void checkRead(const saved::Reader& a, const std::vector<Slot>& slots, const std::vector<int32_t>& order,
                  const std::vector<int32_t>& free, const std::vector<int32_t>& changed) const;
@@ -188,6 +191,9 @@ class Drops {
   void brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double dry_hold_n);
   bool mayMove(const DropWorld& world, int slot) const;
   double heldBy(const DropWorld& world, double film_m) const;
+  double heldAt(const DropWorld& world, int texel) const;
+  // Whether a film holds drops less anywhere on the pane.
+  bool filmLetsGo(const DropWorld& world) const { return world.film.thickest_m() > 0.5 * surface_.wetting_m; }
   bool reshape(int slot, glm::dvec2 along, double force_n, double speed_mps, double seconds);
   void leaveTrail(const DropWorld& world, int slot, glm::dvec2 ahead, double speed_mps, glm::dvec2 metres);
   void leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 ahead, glm::dvec2 metres);

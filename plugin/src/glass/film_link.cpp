@@ -245,38 +245,46 @@ bool FilmLink::use(int64_t step, FilmReport& report, std::vector<Taker>& takers)
 // What thickness_m() tells on a tile lies between its own and its neighbours'.
 void FilmLink::findMostAbout() {
   const glm::ivec2 count = map_->tileCount();
-  const auto most = [&](const std::vector<float>& of, size_t i, int at, int end, size_t step) {
+  const auto most = [](const std::vector<float>& of, size_t i, int place, int end, size_t step) {
     float m = of[i];
-    if (at > 0) m = std::max(m, of[i - step]);
-    if (at + 1 < end) m = std::max(m, of[i + step]);
+    if (place > 0) m = std::max(m, of[i - step]);
+    if (place + 1 < end) m = std::max(m, of[i + step]);
     return m;
   };
+  const auto at = [&count](int x, int y) { return static_cast<size_t>(y * count.x + x); };
   std::vector<float>& along = along_rows_m_;
   along.resize(tile_thickness_m_.size());
-  for (size_t i = 0; i < along.size(); ++i)
-    along[i] = most(tile_thickness_m_, i, static_cast<int>(i) % count.x, count.x, 1);
-  for (size_t i = 0; i < along.size(); ++i)
-    most_about_m_[i] = most(along, i, static_cast<int>(i) / count.x, count.y, static_cast<size_t>(count.x));
+  for (int y = 0; y < count.y; ++y) {
+    for (int x = 0; x < count.x; ++x) along[at(x, y)] = most(tile_thickness_m_, at(x, y), x, count.x, 1);
+  }
+  for (int y = 0; y < count.y; ++y) {
+    for (int x = 0; x < count.x; ++x)
+      most_about_m_[at(x, y)] = most(along, at(x, y), y, count.y, static_cast<size_t>(count.x));
+  }
 }
 
 // Tiles are 5 cm wide: told as steps their means would show, as rows of drops that end where one tile drowns
 // them and the next does not.
 double FilmLink::thickness_m(int texel) const {
   if (thickest_m_ == 0.0f) return 0.0;
-  const auto inTiles = [](int texels) {  // from the middle of the first
-    return (static_cast<float>(texels) + 0.5f) / static_cast<float>(shared::kTileSize) - 0.5f;
+  constexpr int kTile = shared::kTileSize, kHalf = kTile / 2;
+  const int row = texel / map_->grid().size.x, column = texel % map_->grid().size.x,
+            tiles = map_->tileCount().x;
+  // Between the middles of these tiles; the last ones have none beyond.
+  const int right = (column + kHalf) / kTile, left = std::max(right - 1, 0), last = tiles - 1;
+  const int high = (row + kHalf) / kTile, low = std::max(high - 1, 0), top = map_->tileCount().y - 1;
+  const auto past = [](int texels) {  // the lower middle, in tiles
+    return (static_cast<float>((texels + kHalf) % kTile) + 0.5f) / static_cast<float>(kTile);
   };
-  const float x = inTiles(texel % map_->grid().size.x), y = inTiles(texel / map_->grid().size.x);
-  const glm::ivec2 low(glm::floor(glm::vec2(x, y))), most = map_->tileCount() - 1;
-  const glm::vec2 f = glm::vec2(x, y) - glm::vec2(low);
-  const float own_m = tile_thickness_m_[map_->tileOf(texel)];
-  const auto tile = [&](int right, int up) {
-    const glm::ivec2 at = glm::clamp(low + glm::ivec2(right, up), glm::ivec2(0), most);
-    const auto i = static_cast<size_t>(at.y * map_->tileCount().x + at.x);
+  const float own_m = tile_thickness_m_[static_cast<size_t>(row / kTile * tiles + column / kTile)];
+  const auto tile = [&](int x, int y) {
+    const auto i = static_cast<size_t>(y * tiles + x);
     return map_->tileArea_m2()[i] > 0.0f ? tile_thickness_m_[i] : own_m;
   };
-  return static_cast<double>(
-      glm::mix(glm::mix(tile(0, 0), tile(1, 0), f.x), glm::mix(tile(0, 1), tile(1, 1), f.x), f.y));
+  const float fx = past(column), fy = past(row);
+  const int beyond_x = std::min(right, last), beyond_y = std::min(high, top);
+  return static_cast<double>(glm::mix(glm::mix(tile(left, low), tile(beyond_x, low), fx),
+                                      glm::mix(tile(left, beyond_y), tile(beyond_x, beyond_y), fx), fy));
 }
 
 bool FilmLink::watered(int texel) const { return tile_watered_[map_->tileOf(texel)]; }

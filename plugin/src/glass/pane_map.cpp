@@ -184,14 +184,6 @@ std::optional<glm::dvec3> PaneMap::vehicleFromGrid(glm::dvec2 grid_m) const {
   return glm::dvec3(t.position_m) + d.x * glm::dvec3(t.along_x) + d.y * glm::dvec3(t.along_y);
 }
 
-glm::dvec2 PaneMap::alongGlass(const PaneNode& node, const glm::dvec3& v) {
-  const double xx = glm::dot(node.along_x, node.along_x), xy = glm::dot(node.along_x, node.along_y),
-               yy = glm::dot(node.along_y, node.along_y);
-  const double vx = glm::dot(v, node.along_x), vy = glm::dot(v, node.along_y);
-  const double det = xx * yy - xy * xy;
-  return {(vx * yy - vy * xy) / det * std::sqrt(xx), (vy * xx - vx * xy) / det * std::sqrt(yy)};
-}
-
 // A node takes the mean of the glass within a tile around it; one without glass takes that of the nearest
 // nodes that have some.
 void PaneMap::makeNodes() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -45,6 +46,29 @@ struct RegionBounds {
   glm::dvec3 normal{0.0};  // their mean one, not of unit length
   double bend = 0.0;       // none of theirs is farther from it
   double least_m2 = 0.0, most_m2 = 0.0;
+};
+
+// Vectors of the vehicle's frame as their components along the glass about a node, grid axes, in their own
+// unit.
+class GlassAxes {
+ public:
+  explicit GlassAxes(const PaneNode& node)
+      : x_(node.along_x),
+        y_(node.along_y),
+        xx_(glm::dot(x_, x_)),
+        xy_(glm::dot(x_, y_)),
+        yy_(glm::dot(y_, y_)),
+        det_(xx_ * yy_ - xy_ * xy_),
+        length_x_(std::sqrt(xx_)),
+        length_y_(std::sqrt(yy_)) {}
+  glm::dvec2 along(const glm::dvec3& v) const {
+    const double vx = glm::dot(v, x_), vy = glm::dot(v, y_);
+    return {(vx * yy_ - vy * xy_) / det_ * length_x_, (vy * xx_ - vx * xy_) / det_ * length_y_};
+  }
+
+ private:
+  glm::dvec3 x_, y_;
+  double xx_, xy_, yy_, det_, length_x_, length_y_;
 };
 
 class PaneMap {
@@ -107,8 +131,6 @@ class PaneMap {
   }                                // metres for a texel along x, y; 1/area in 1/m^2; 0
   size_t tileOf(int index) const;  // of a texel
   const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }  // of what is shown
-  // A vector of the vehicle's frame as its components along the glass, grid axes, in its own unit.
-  static glm::dvec2 alongGlass(const PaneNode& node, const glm::dvec3& v);
 
   // Regions for shelter, see kRegions. Middle of the whole pane's glass there; none where it has none.
   const std::optional<glm::dvec3>& regionCentre(int region) const {

@@ -17,7 +17,13 @@ inline constexpr double kRho_kg_m3 = 1000.0;
 inline constexpr double kRhoAir_kg_m3 = 1.2;
 inline constexpr double kPicolitresPerM3 = 1.0e15;
 
-inline int64_t picolitres(double volume_m3) { return std::llround(volume_m3 * kPicolitresPerM3); }
+// Rounded as std::llround does it, which is a call.
+inline int64_t picolitres(double volume_m3) {
+  const double exact = volume_m3 * kPicolitresPerM3;
+  const auto whole = static_cast<int64_t>(exact);
+  const double rest = exact - static_cast<double>(whole);
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+}
 inline double cubicMetres(int64_t volume_pl) { return static_cast<double>(volume_pl) / kPicolitresPerM3; }
 
 // What a surface does to water. Contact angles as in physics.md (advancing / receding 40/10, 60/20, 110/90,
