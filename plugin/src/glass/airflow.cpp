@@ -153,7 +153,8 @@ double ForceField::airSpeed_mps(const PaneMap& map, glm::dvec2 grid_m) const {
 Push ForceField::at(const PaneMap& map, glm::dvec2 grid_m) const {
   const InTile in(map, grid_m);
   const glm::vec4 push = in.mix(nodes_);
-  return {glm::dvec2(accelerationOf(push)), glm::dvec2(airOf(push)), in.metres(map)};
+  return {glm::dvec2(accelerationOf(push)), glm::dvec2(airOf(push)), in.metres(map),
+          static_cast<int>(in.node)};
 }
 
 glm::dvec2 ForceField::metresAt(const PaneMap& map, glm::dvec2 grid_m) {

@@ -39,6 +39,7 @@ struct Push {
   glm::dvec2 acceleration_mps2{0.0};
   glm::dvec2 air_mps{0.0};
   glm::dvec2 metres{1.0};  // real for one grid metre along x, y
+  int tile = 0;            // that it lies on
 };
 
 // Fields of one tick.

@@ -40,14 +40,20 @@ void Drops::findWidest() {
   std::fill(widest_m_.begin(), widest_m_.end(), 0.0f);
   for (Cell& cell : cells_) cell.widest_m = 0.0f;
   for (size_t slot = 0; slot < slots_.items.size(); ++slot) {
-    if (slots_.items[slot].volume_pl != 0) noteWidth(static_cast<int>(slot));
+    if (slots_.items[slot].volume_pl != 0) tellWidth(static_cast<int>(slot), nears_[slot].half_m);
   }
 }
 
+// Its cell knows of what is no wider than before.
 void Drops::noteWidth(int slot) {
-  const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const float half_m = nears_[static_cast<size_t>(slot)].half_m = halfLength_m(drop);
-  const auto cell = static_cast<size_t>(drop.cell);
+  const float half_m = halfLength_m(slots_.items[static_cast<size_t>(slot)]);
+  float& known_m = nears_[static_cast<size_t>(slot)].half_m;
+  if (half_m > known_m) tellWidth(slot, half_m);
+  known_m = half_m;
+}
+
+void Drops::tellWidth(int slot, float half_m) {
+  const auto cell = static_cast<size_t>(slots_.items[static_cast<size_t>(slot)].cell);
   float& cell_m = cells_[cell].widest_m;
   cell_m = std::max(cell_m, half_m);
   float& block_m = widest_m_[static_cast<size_t>(block_of_[cell])];

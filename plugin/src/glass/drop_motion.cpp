@@ -103,12 +103,13 @@ bool Drops::mayMove(const DropWorld& world, int slot) const {
          glm::dot(other, other) > kOther * kOther;
 }
 
-void Drops::brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double dry_hold_n) {
+void Drops::brace(const DropWorld& world, int slot, int tile, double mass_kg, double drag_s2_m2,
+                  double dry_hold_n) {
   Hold& hold = holds_[static_cast<size_t>(slot)];
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
   hold.acceleration_s2_m = static_cast<float>(mass_kg / dry_hold_n);
   hold.air2_s2_m2 = static_cast<float>(drag_s2_m2);
-  hold.tile = world.forces.tileAt(world.map, drop.place_m);
+  hold.tile = tile;
   const ForceField::About& about = world.forces.about(hold.tile);
   hold.share = hold.acceleration_s2_m * about.acceleration_mps2 + hold.air2_s2_m2 * about.air2_m2_s2;
   drop.braced_pl = static_cast<float>(drop.volume_pl);
@@ -134,7 +135,7 @@ void Drops::slide(const DropWorld& world, int slot) {
   if (drop.pose != Pose::moving && force <= hold_n) {
     if (reshape(slot, toward, force, 0.0, kRestStride * kTickSeconds)) {
       const double from_its_side_n = drag.perSquare_n(2.0 * static_cast<double>(halfLength_m(drop)));
-      brace(world, slot, mass_kg, from_its_side_n / dry_hold_n, dry_hold_n);
+      brace(world, slot, push.tile, mass_kg, from_its_side_n / dry_hold_n, dry_hold_n);
     } else {
       become(slot, Pose::uneasy);
     }
@@ -160,7 +161,7 @@ void Drops::slide(const DropWorld& world, int slot) {
   moveTo(slot, from_m + velocity / push.metres * kTickSeconds);
   const glm::dvec2 ahead = velocity / speed;
   reshape(slot, ahead, force, speed, kTickSeconds);
-  const int texel = world.map.texelAt(drop.place_m);
+  const int texel = world.map.texelAt(drop.place_m, drop.texel);
   if (overEdge(world, slot, texel)) return;
   if (texel != drop.texel) {
     takeOnTheWay(world, slot, from_m, ahead, widthAcross_m(drop, ahead));
@@ -272,7 +273,9 @@ void Drops::leaveTrail(const DropWorld& world, int slot, glm::dvec2 ahead, doubl
   }
   if (speed_mps > kPearling * receding_mps_) {
     drop.since_pearl_m += static_cast<float>(way_m);
-    leavePearl(world, drop, ahead, metres);
+    // It takes at least 4 of the smallest to the next.
+    if (drop.since_pearl_m >= 4.0f * kSmallestPearl * drop.base_radius_m)
+      leavePearl(world, drop, ahead, metres);
   }
   settle(slot);
 }
@@ -280,8 +283,6 @@ void Drops::leaveTrail(const DropWorld& world, int slot, glm::dvec2 ahead, doubl
 // Tails pinch off droplets of a tenth to a fifth of the width, every few of their own sizes (Podgorski,
 // Flesselles & Limat 2001; sizes by eye).
 void Drops::leavePearl(const DropWorld& world, Drop& drop, glm::dvec2 ahead, glm::dvec2 metres) {
-  // It takes at least 4 of the smallest to the next.
-  if (drop.since_pearl_m < 4.0f * kSmallestPearl * drop.base_radius_m) return;
   const uint32_t h = shared::pcg(drop.seed ^ shared::pcg(static_cast<uint32_t>(drop.texel)));
   const double radius_m =
       static_cast<double>(drop.base_radius_m) *

@@ -113,6 +113,7 @@ void Drops::link(int slot) {
   nears_[static_cast<size_t>(slot)].next = cell.first;
   cell.first = slot;
   noteWidth(slot);
+  tellWidth(slot, nears_[static_cast<size_t>(slot)].half_m);
 }
 
 void Drops::unlink(int slot) {
@@ -370,7 +371,7 @@ void Drops::dry(const DropWorld& world, int slot) {
   constexpr float kNoticed = 0.97f;
   Drop& drop = slots_.items[static_cast<size_t>(slot)];
   const double radius_m = static_cast<double>(drop.base_radius_m);
-  const double theta = static_cast<double>(2.0f * std::atan(drop.height_m / drop.base_radius_m));
+  const double theta = static_cast<double>(capAngle(drop.height_m, drop.base_radius_m));
   const double rate_kg_s = evaporation_kg_s(radius_m, theta, world.humidity, world.saturated_kg_m3) *
                            ventilation(world.forces.airSpeed_mps(world.map, drop.place_m), 2.0 * radius_m);
   const double lost = rate_kg_s / kRho_kg_m3 * kAgeStride * kTickSeconds * kPicolitresPerM3;

@@ -171,6 +171,10 @@ class Drops {
       a.within(hold.share, -kAny, kAny);
     }
   };
+  struct Cell {
+    int32_t first = -1;     // of its drops
+    float widest_m = 0.0f;  // none of them has a greater half length
+  };
   // As a saved state has a slot.
   struct Slot {
     Drop drop;
@@ -188,7 +192,8 @@ class Drops {
                  const std::vector<int32_t>& free, const std::vector<int32_t>& changed) const;
   void hangIn(const std::vector<Slot>& slots, const std::vector<int32_t>& order);
   void slide(const DropWorld& world, int slot);
-  void brace(const DropWorld& world, int slot, double mass_kg, double drag_s2_m2, double dry_hold_n);
+  void brace(const DropWorld& world, int slot, int tile, double mass_kg, double drag_s2_m2,
+             double dry_hold_n);
   bool mayMove(const DropWorld& world, int slot) const;
   double heldBy(const DropWorld& world, double film_m) const;
   double heldAt(const DropWorld& world, int texel) const;
@@ -219,6 +224,7 @@ class Drops {
   void fetchAbout(int slot) const;
   void findWidest();
   void noteWidth(int slot);
+  void tellWidth(int slot, float half_m);
   float widestAbout_m(glm::vec2 place_m, glm::vec2 reach_m) const;
   template <class Met>
   int firstAbout(const DropWorld& world, glm::dvec2 place_m, float own_m, float overlap,
@@ -242,10 +248,6 @@ class Drops {
   std::vector<Near> nears_;  // of each slot, as the next
   std::vector<Hold> holds_;
   SlotSet moving_, uneasy_, braced_;
-  struct Cell {
-    int32_t first = -1;     // of its drops
-    float widest_m = 0.0f;  // none of them has a greater half length
-  };
   std::vector<Cell> cells_;
   std::vector<int32_t> block_of_;   // of each cell
   static constexpr int kBlock = 8;  // cells along a block's side

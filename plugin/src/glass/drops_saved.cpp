@@ -81,6 +81,7 @@ void Drops::hangIn(const std::vector<Slot>& slots, const std::vector<int32_t>& o
     const Slot& saved = slots[static_cast<size_t>(slot)];
     become(slot, saved.drop.pose);
     nears_[static_cast<size_t>(slot)].half_m = saved.half_m;
+    tellWidth(slot, saved.half_m);
   }
   live_ = static_cast<uint32_t>(order.size());
 }

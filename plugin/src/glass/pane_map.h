@@ -94,10 +94,13 @@ class PaneMap {
   void show(std::span<const int> texels, bool shown);
 
   // Index of the texel at a place, or -1 where it is off the pane or not shown.
-  int texelAt(glm::dvec2 grid_m) const {
+  int texelAt(glm::dvec2 grid_m) const { return texelAt(grid_m, -1); }
+  // The same, of somebody who is on a texel that is shown.
+  int texelAt(glm::dvec2 grid_m, int own) const {
     const glm::dvec2 texel = grid_m / grid_.texel_m;
     if (!(texel.x >= 0.0 && texel.y >= 0.0 && texel.x < grid_.size.x && texel.y < grid_.size.y)) return -1;
-    return shownAt(static_cast<int>(texel.x), static_cast<int>(texel.y));
+    const int index = static_cast<int>(texel.y) * grid_.size.x + static_cast<int>(texel.x);
+    return index == own || shown(index) ? index : -1;
   }
   // The same of a column and a row of the grid.
   int texelAt(glm::ivec2 texel) const {

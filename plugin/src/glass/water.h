@@ -92,6 +92,11 @@ inline double capVolumeAbove(double height_m, double base_radius_m, double above
   return std::numbers::pi * rest_m * rest_m * (3.0 * sphere_m - rest_m) / 3.0;
 }
 
+// Contact angle of a cap from its height and base: tan(theta / 2) = h / R.
+inline float capAngle(float height_m, float base_radius_m) {
+  return 2.0f * std::atan(height_m / base_radius_m);
+}
+
 // A cap's outline seen from the side: the segment of a circle. Of flat ones, where its formula loses digits,
 // by the first two terms of its series in h / R, right to 2e-4.
 inline double capOutline_m2(double height_m, double base_radius_m) {
