@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 #include "image/hdr.h"
 
@@ -15,6 +17,12 @@ namespace {
 constexpr double kDisplayGain = 3.0, kDimmestDisplay = 0.01;  // the former per 1000 cd/m^2
 constexpr double kBrakeLights_mps2 = -0.7;                    // coasting does not light them
 constexpr float kOpenPlace = 0.9F;  // a place that sees so much of the sky is lit as the open field is
+
+// Panes are ticked on some of the machine's other cores too.
+double threadsForPanes() {
+  constexpr unsigned kMost = 3;
+  return std::min(kMost, std::max(1U, std::thread::hardware_concurrency()) - 1);
+}
 
 bool hasModels(const std::filesystem::path& folder) {
   std::error_code error;
@@ -108,6 +116,7 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
 }
 
 void Stage::setParameters() {
+  plugin_->setParameter("glass.threads", threadsForPanes());
   for (const auto& [name, value] : scenario_.parameters) {
     try {
       plugin_->setParameter(name, value);

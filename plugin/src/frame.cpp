@@ -251,6 +251,7 @@ void Frame::tellSettings() {
   wind_profile_ = rain::WindProfile::of(settings_.wind_roughness_m, settings_.wind_height_m);
   field_.setWindProfile(wind_profile_);
   field_.setVisibility({settings_.rain_visibility_factor, settings_.rain_reference_px});
+  workers_.keep(static_cast<size_t>(settings_.glass_threads));
 }
 
 void Frame::runTick(int64_t index, bool rain_only) {

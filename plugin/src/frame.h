@@ -30,6 +30,7 @@
 #include "surroundings/wetness.h"
 #include "surroundings/wetness_gl.h"
 #include "timeline.h"
+#include "workers.h"
 
 namespace rg {
 
@@ -207,6 +208,8 @@ class Frame {
   uint32_t class_count_ = 0;
   rain::Rates glass_rates_;
   double glass_fall_mps_ = 0.0;  // typical of them; 0: not asked yet
+
+  Workers workers_;  // run panes' ticks
 
   gl::Timers timers_;
   struct Stages {

@@ -103,6 +103,8 @@ void Frame::tickGlass(const Tick& tick) {
     glass_fall_mps_ = typicalFall_mps(rates, on_glass);
   }
   ++glass_moment_;
+  std::vector<std::pair<glass::PaneSim*, glass::PaneTick>> ticks;
+  ticks.reserve(panes_.size());
   for (auto& [id, p] : panes_) {
     if (!p.active) continue;
     const auto vehicle = std::ranges::find(tick.vehicles, p.vehicle, &VehicleState::id);
@@ -133,8 +135,10 @@ void Frame::tickGlass(const Tick& tick) {
     }
     tickWashes(id, tick, t);
     tickFog(p, t);
-    p.sim->submit(t);
+    ticks.emplace_back(p.sim.get(), t);
   }
+  // A pane's tick needs none of its neighbours' at the same time, see Pillar.
+  workers_.share(ticks.size(), [&ticks](size_t i) { ticks[i].first->submit(ticks[i].second); });
   std::erase_if(washes_, [](const WashObject& wash) { return wash.given_pl == wash.volume_pl; });
 }
 

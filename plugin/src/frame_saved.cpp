@@ -99,16 +99,21 @@ void take(Reader& a, Part& into) {
   if (a.commits()) into = std::move(part);
 }
 
+// Not of the state, but of the machine that it runs on.
+bool isOfTheMachine(const SettingInfo& info) { return info.value == &Settings::glass_threads; }
+
 void writeSettings(Writer& a, const Settings& settings) {
   for (const SettingInfo& info : kSettings) {
+    if (isOfTheMachine(info)) continue;
     a.text(info.name, kLongestName);
     a(settings.*info.value);
   }
 }
 
 void readSettings(Reader& a, Settings& into) {
-  Settings settings;
+  Settings settings = into;
   for (const SettingInfo& info : kSettings) {
+    if (isOfTheMachine(info)) continue;
     std::string name;
     a.text(name, kLongestName);
     if (name != info.name) a.refuse("\"" + std::string(info.name) + "\" is missing");

@@ -25,6 +25,7 @@ struct Settings {
   double glass_blur = 1.0;
   double glass_pupil_m = 0.0;
   double glass_run_off = 0.5;
+  double glass_threads = 0.0;
   double glass_internal_reflections = 3.0;
   double glass_capture_px = 256.0;
   double fog_cabin_temperature_c = 20.0;
@@ -104,6 +105,10 @@ inline constexpr SettingInfo kSettings[] = {
      "has "
      "gutters there",
      0.0, 1.0, &Settings::glass_run_off},
+    {"glass.threads", "1", "glass",
+     "threads of the instance's own among which panes are shared out, besides that which calls update; what "
+     "comes of it is the same; no part of a saved state",
+     0.0, 16.0, &Settings::glass_threads},
     {"glass.internal_reflections", "1", "glass", "followed inside a drop", 0.0, 6.0,
      &Settings::glass_internal_reflections},
     {"glass.capture_px", "px", "glass", "side of a face of the captured surroundings", 32.0, 2048.0,

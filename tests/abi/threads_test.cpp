@@ -180,6 +180,44 @@ TEST_F(Threads, glComesAndGoesWhileItUpdates) {
       });
 }
 
+// Two panes with a pillar between them, both with their films.
+TEST_F(Threads, ofAnInstancesOwnChangeNothing) {
+  SavedScene alone(api), shared(api);
+  shared.expect(api.set_parameter(shared.instance, "glass.threads", 3.0));
+  for (SavedScene* scene : {&alone, &shared}) ASSERT_EQ(scene->attach(GlContext::getProc), RG_OK);
+  for (int frame = 0; frame < 90; ++frame) {
+    for (SavedScene* scene : {&alone, &shared}) scene->drive(1, frame % 7 == 0);
+    if (frame == 60) shared.expect(api.set_parameter(shared.instance, "glass.threads", 1.0));
+    ASSERT_EQ(shared.hash(), alone.hash()) << "frame " << frame;
+  }
+  EXPECT_TRUE(shared.save() == alone.save());
+  EXPECT_GT(shared.stats(kPane).caught_ml, 1.0);
+  for (SavedScene* scene : {&alone, &shared}) scene->expect(api.detach_gl(scene->instance));
+}
+
+// They are of the machine that it runs on.
+TEST_F(Threads, ofAnInstancesOwnAreNoPartOfItsState) {
+  SavedScene with(api), without(api);
+  with.expect(api.set_parameter(with.instance, "glass.threads", 2.0));
+  for (SavedScene* scene : {&with, &without}) scene->frame();
+  const Bytes saved = with.save();
+  EXPECT_TRUE(saved == without.save());
+  without.expect(api.set_parameter(without.instance, "glass.threads", 1.0));
+  without.expect(without.restore(saved));
+  const auto threads = [&](const SavedScene& scene) {
+    uint32_t count = 0;
+    scene.expect(api.get_parameter_count(scene.instance, &count));
+    for (uint32_t i = 0; i < count; ++i) {
+      rg_parameter parameter;
+      parameter.struct_size = sizeof parameter;
+      scene.expect(api.get_parameter(scene.instance, i, &parameter));
+      if (std::string_view(parameter.name) == "glass.threads") return parameter.value;
+    }
+    return -1.0;
+  };
+  EXPECT_EQ(threads(without), 1.0);
+}
+
 TEST_F(Threads, instancesDoNotKnowOfEachOther) {
   const auto hashAfter = [&](int steps) {
     SavedScene scene(api);
