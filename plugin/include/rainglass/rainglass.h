@@ -11,6 +11,7 @@
  *   api->set_volume, set_vehicle, set_pane, set_wiper ...    any time; stable ids of your choice, 0 is never an id
  *   each frame, one way:
  *     api->update            CPU thread   samples of your world with their times; runs as many fixed ticks as the time says
+ *                                         (with threads of its own beside it where parameter glass.threads allows some)
  *     api->step_gpu          GL thread    uploads what is new, runs the film's ticks
  *     api->prepare_captures  GL thread    (optional) your callback draws the scene behind the glass, wide
  *     for each view:
