@@ -110,13 +110,14 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   plugin_->addRoad(road_);
   plugin_->addCar(car_);
   plugin_->addTraffic(car_, scenario.traffic.size());
+  // A budget is what the calling thread may take alone.
+  if (options.budget.empty()) plugin_->setParameter("glass.threads", threadsForPanes());
   setParameters();
   simulation_ = std::make_unique<Simulation>(scenario, car_, road_, *plugin_, options.size_px);
   simulation_->adapting_luminance = [this](glm::dvec3 eye_m) { return renderer_->adaptingLuminance(eye_m); };
 }
 
 void Stage::setParameters() {
-  plugin_->setParameter("glass.threads", threadsForPanes());
   for (const auto& [name, value] : scenario_.parameters) {
     try {
       plugin_->setParameter(name, value);

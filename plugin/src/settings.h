@@ -106,8 +106,9 @@ inline constexpr SettingInfo kSettings[] = {
      "gutters there",
      0.0, 1.0, &Settings::glass_run_off},
     {"glass.threads", "1", "glass",
-     "threads of the instance's own among which panes are shared out, besides that which calls update; what "
-     "comes of it is the same; no part of a saved state",
+     "threads of the instance's own among which panes are shared out, besides that which calls update, or as "
+     "many as the system gives; on its cores and at its priority; what comes of it is the same; no part of a "
+     "saved state",
      0.0, 16.0, &Settings::glass_threads},
     {"glass.internal_reflections", "1", "glass", "followed inside a drop", 0.0, 6.0,
      &Settings::glass_internal_reflections},

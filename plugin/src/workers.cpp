@@ -1,7 +1,8 @@
 #include "workers.h"
 
+#include <pthread.h>
+
 #include <csignal>
-#include <system_error>
 
 namespace rg {
 namespace {
@@ -40,7 +41,7 @@ void Workers::keep(size_t threads) {
   const SignalsBlocked blocked;
   try {
     while (threads_.size() < threads) threads_.emplace_back([this] { serve(); });
-  } catch (const std::system_error&) {  // fewer will do
+  } catch (const std::exception&) {  // fewer will do
   }
 }
 
@@ -73,6 +74,7 @@ void Workers::take(Job& job) {
 }
 
 void Workers::serve() {
+  pthread_setname_np(pthread_self(), "rainglass");
   std::unique_lock lock(mutex_);
   for (uint64_t seen = 0; !ends_;) {
     wanted_.wait(lock, [&] { return ends_ || (job_ != nullptr && jobs_ != seen); });

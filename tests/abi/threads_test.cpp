@@ -4,6 +4,8 @@
 //   TSAN_OPTIONS=ignore_noninstrumented_modules=1 build/tsan/bin/test_abi --gtest_filter='Threads.*'
 // The option is for the GL driver, whose own threads were not built for it.
 #include <atomic>
+#include <chrono>
+#include <filesystem>
 #include <functional>
 #include <thread>
 
@@ -85,6 +87,7 @@ void tinker(const SmallScene& scene, int step) {
   const rg_glass_drop drop{0.0, 0.0, 1e-3, 40.0};
   EXPECT_GE(api.place_drops(i, kPane, &drop, 1), 0) << api.last_error(i);
   EXPECT_GE(api.set_parameter(i, "glass.brightness", 1.0 + 0.001 * step), 0);
+  EXPECT_GE(api.set_parameter(i, "glass.threads", step % 20 < 10 ? 2.0 : 1.0), 0);
   if (step % 10 == 2) {
     const rg_wash_info jet = scene.jet();
     EXPECT_GE(api.wash(i, &jet), 0) << api.last_error(i);
@@ -190,9 +193,41 @@ TEST_F(Threads, ofAnInstancesOwnChangeNothing) {
     if (frame == 60) shared.expect(api.set_parameter(shared.instance, "glass.threads", 1.0));
     ASSERT_EQ(shared.hash(), alone.hash()) << "frame " << frame;
   }
+  // Ticks wait for what the GPU does not tell, and for each other's.
+  for (SavedScene* scene : {&alone, &shared}) {
+    for (int frame = 0; frame < 40; ++frame) scene->frame();
+    scene->expect(api.step_gpu(scene->instance));
+  }
+  EXPECT_EQ(shared.hash(), alone.hash());
   EXPECT_TRUE(shared.save() == alone.save());
-  EXPECT_GT(shared.stats(kPane).caught_ml, 1.0);
+  EXPECT_GT(shared.stats(kPane).run_on_ml + shared.stats(kWindow).run_on_ml, 0.0)
+      << "nothing came round the pillar";
   for (SavedScene* scene : {&alone, &shared}) scene->expect(api.detach_gl(scene->instance));
+}
+
+size_t threadsOfThisProcess() {
+  const std::filesystem::directory_iterator tasks("/proc/self/task"), end;
+  return static_cast<size_t>(std::distance(tasks, end));
+}
+
+// One that has ended may be listed for a moment yet.
+void expectThreads(size_t count) {
+  for (int wait = 0; wait < 1000 && threadsOfThisProcess() != count; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(threadsOfThisProcess(), count);
+}
+
+TEST_F(Threads, ofAnInstancesOwnAreAsManyAsAskedForAndGoWithIt) {
+  const size_t before = threadsOfThisProcess();
+  {
+    SavedScene scene(api);
+    for (const size_t threads : {0u, 3u, 1u, 2u}) {
+      scene.expect(api.set_parameter(scene.instance, "glass.threads", static_cast<double>(threads)));
+      scene.frame();
+      expectThreads(before + threads);
+    }
+  }
+  expectThreads(before);
 }
 
 // They are of the machine that it runs on.
