@@ -1,7 +1,7 @@
 // For GPUs all that a film step does after what changes the film and blades, as glass/film_flow.comp and glass/film_dry.comp have it: a group is a tile,
 // an invocation a texel of it, which works out its own law and hears of others through shared memory; so a law is worked out 1.25 times, a face's flow
-// 1.06 times. A group finds out by itself whether its tile is awake or to dry, and one of a row more tells of the ridges, as a kernel that waits for another costs more
-// than groups with nothing to do.
+// 1.06 times. A group finds out by itself whether its tile is awake or to dry, and one of a row more tells of the ridges, as a kernel that waits for
+// another costs more than groups with nothing to do.
 //
 // How fast it is hangs on how many groups a processor holds, and that on how little shared memory one needs: of an NVIDIA H200's 228 KiB OpenGL gives 48
 // to a processor (with 21 KiB a group two are held, with 11 four, in 0.7 of the time). So words are used again where they can be.
@@ -44,8 +44,8 @@ int cellAt(ivec2 at) { return (at.y + 1) * kCellRow + at.x + 1; }
 const int kNodes = 4;
 shared vec4 node_metric[kNodes * kNodes], node_drive[kNodes * kNodes];
 
-shared int stirring, was_awake, lies; // whether there is water on it, as its last report had it
-shared int stirs_next;
+shared int stirring, was_awake, stirs_next; // it or a tile beside it now, as it was in the last step, it in the next
+shared int lies; // other than 0 where there is water on it, as its last report had it
 shared int most_pl, giver; // of what texels offer to the drops; the first that offers so much
 shared int drained_pl, blown_pl;
 

@@ -164,6 +164,22 @@ TEST_F(ProgramTest, manyAreWaitedForTogetherAndTheOneThatFailsIsNamed) {
   context.takeMessages();
 }
 
+TEST_F(ProgramTest, manyAreCompiledByAllThreadsAndTheHostsNumberIsGivenBack) {
+  static GLuint threads;
+  threads = 3;
+  Driver driver(gl, "Some GPU", true);
+  driver.gl.MaxShaderCompilerThreadsKHR = [](GLuint count) { threads = count; };
+  driver.gl.GetInteger64v = [](GLenum what, GLint64* out) {
+    ASSERT_EQ(what, static_cast<GLenum>(GL_MAX_SHADER_COMPILER_THREADS_KHR));
+    *out = threads;
+  };
+  {
+    const BegunPrograms all(driver.gl);
+    EXPECT_EQ(threads, 0xffffffffu);
+  }
+  EXPECT_EQ(threads, 3u);
+}
+
 TEST_F(ProgramTest, isFinishedAsItIsMadeWhereTheDriverHasNoThreads) {
   const Driver driver(gl, "Some GPU", false);
   const Program program(driver.gl, {"good.vert", "good.frag"}, kScaled, fakeFiles);

@@ -77,8 +77,8 @@ class Buffer : public Object<detail::deleteBuffer> {
   void zero();                                               // all of it, on the GPU
   void zero(size_t offset, size_t bytes);                    // both multiples of 4
   void read(size_t offset, void* data, size_t bytes) const;  // waits for the GPU
-  void* map(size_t offset, size_t bytes,
-            GLbitfield access);  // for persistently mapped rings; throws Error::kDriver
+  // For persistently mapped rings. Throws Error::kDriver.
+  void* map(size_t offset, size_t bytes, GLbitfield access);
 
  private:
   size_t bytes_ = 0;

@@ -134,8 +134,8 @@ class FilmGl {
   gl::BufferTexture beads_strips_;
   gl::Buffer ridges_, states_, awake_, metric_, glass_;
   gl::BufferTexture metric_nodes_, glass_strips_, glass_codes_;
-  gl::Buffer
-      drive_;  // what drives the film in a step, brought to the GPU's own memory: every tile asks for it
+  // What drives the film in a step, brought to the GPU's own memory: every tile asks for it.
+  gl::Buffer drive_;
   gl::BufferTexture drive_nodes_, ordered_drive_nodes_;
   gl::Texture2D picture_, beads_picture_;
   bool picture_is_old_ = true, beads_picture_is_old_ = true;
