@@ -2,6 +2,9 @@
 #include "optics/bead.glsl"
 #include "optics/bicubic.glsl"
 #include "optics/near.glsl"
+#ifdef SOFT
+#include "optics/pupil.glsl"
+#endif
 #ifdef RIDGES
 #include "optics/ridge.glsl"
 #endif
@@ -37,16 +40,6 @@ float spanned_px(vec2 moved) {
 }
 
 vec3 behind(vec2 moved, float spanned) { return decode(textureLod(picture, mirrored(moved), log2(spanned)).rgb); }
-
-// How much of a shift leads to what lies behind the glass. The picture also holds what stands before it or close to it, pillar, roof, frit, blade:
-// there a bent view sees past them, and the picture does not know what. The half, the quarter of the shift serve for it, at last none.
-float shareToBehind(vec2 at, vec2 shift, float spanned, float behind_m, vec3 normal_eye, float offset_m) {
-  float least_m = min(0.5 * behind_m, kFarthestNear_m);
-  vec2 beyond = shift * (1.5 * spanned / max(length(shift * frame.viewport.zw), 1.0));  // the picture is read between its pixels
-  float share = 1.0;
-  for (int k = 0; k < 3 && behindGlassAt_m(mirrored(at + share * shift + beyond), normal_eye, offset_m) < least_m; ++k) share = k == 2 ? 0.0 : 0.5 * share;
-  return share;
-}
 
 // Droplets are lenses of a few radii's focal length: each throws a view of its own, tens of degrees wide, into the pixel. What many of
 // them show is the picture blurred, with lamps as halos.
@@ -113,6 +106,18 @@ struct View {
   float to_glass_m, behind_m;
 };
 
+// How much of a shift leads to what lies behind the glass. The picture also holds what stands before it or close to it, pillar, roof, frit, blade:
+// there a bent view sees past them, and the picture does not know what. The half, the quarter of the shift serve for it, at last none.
+float shareToBehind(View view, vec2 shift, float spanned) {
+  mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
+  vec3 normal_eye = eye_from_vehicle * view.normal;
+  float offset_m = dot(normal_eye, eye_from_vehicle * i.from_eye), least_m = min(0.5 * view.behind_m, kFarthestNear_m);
+  vec2 beyond = shift * (1.5 * spanned / max(length(shift * frame.viewport.zw), 1.0));  // the picture is read between its pixels
+  float share = 1.0;
+  for (int k = 0; k < 3 && behindGlassAt_m(mirrored(view.at + share * shift + beyond), normal_eye, offset_m) < least_m; ++k) share = k == 2 ? 0.0 : 0.5 * share;
+  return share;
+}
+
 // How the film's surface bends it: by how much of the picture, and what it reflects more than a flat one.
 struct Bent { vec2 shift; float more; };
 
@@ -130,9 +135,7 @@ Bent bentBy(vec4 water, View view) {
 
 // What is shown so; `blurred`: the same through droplets.
 vec3 shownBy(Bent bent, View view, float spanned, inout vec3 blurred) {
-  mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
-  vec3 normal_eye = eye_from_vehicle * view.normal;
-  float share = shareToBehind(view.at, bent.shift, spanned, view.behind_m, normal_eye, dot(normal_eye, eye_from_vehicle * i.from_eye));
+  float share = shareToBehind(view, bent.shift, spanned);
   vec2 shift = share * bent.shift;
   if (share < 1.0) spanned = 1.0;
   vec3 through_droplets = throughDroplets(view.at + shift);
@@ -141,7 +144,43 @@ vec3 shownBy(Bent bent, View view, float spanned, inout vec3 blurred) {
   return mix(behind(view.at + shift, spanned), frame.cabin_share * through_droplets, bent.more);
 }
 
+#ifdef SOFT
+// Before an eye that looks past it the film lies elsewhere for each of its pupil's points; so many are asked, each by its own way through, and stand for
+// all: what lies between their places in the picture is seen too, so that no lamp is seen eight times.
+const int kPupilPoints = 8;
+const float kBetween = 0.7;  // of how far they lie apart (by eye)
+
+vec4 waterBeside(vec2 px) {
+  vec4 water = textureLod(film, i.uv + px.x * dFdx(i.uv) + px.y * dFdy(i.uv), 0.0);
 #ifdef RIDGES
+  vec3 dx = dFdx(i.from_eye), dy = dFdy(i.from_eye);
+  SeenRidge ridge = seenRidge(i.from_eye + frame.eye_in_vehicle.xyz, dx, dy);
+  water = withRidge(water, ridge, dot(px.x * dx + px.y * dy, ridge.ahead) / ridge.pixel_m);
+#endif
+  return water;
+}
+
+vec3 throughFilmSoftly(View view) {
+  float radius_px = pupilRadius_px(i.from_eye), wet = 0.0, more = 0.0;
+  vec2 shifts[kPupilPoints], mean = vec2(0.0), square = vec2(0.0);
+  for (int k = 0; k < kPupilPoints; ++k) {
+    vec4 water = waterBeside(radius_px * placeOnDisc(k, kPupilPoints));
+    Bent bent = bentBy(water, view);
+    shifts[k] = bent.shift;
+    mean += bent.shift / float(kPupilPoints);
+    square += bent.shift * bent.shift / float(kPupilPoints);
+    more += bent.more / float(kPupilPoints);
+    wet += float(water.w > kDry_um) / float(kPupilPoints);
+  }
+  vec2 apart_px = sqrt(max(square - mean * mean, 0.0)) * frame.viewport.zw;
+  float spanned = max(kBetween * length(apart_px), 1.0);
+  float share = shareToBehind(view, mean, spanned);
+  vec3 light = vec3(0.0);
+  for (int k = 0; k < kPupilPoints; ++k) light += behind(view.at + share * shifts[k], spanned) / float(kPupilPoints);
+  light = mix(light, frame.cabin_share * throughDroplets(view.at + share * mean), more);
+  return mix(1.0, frame.brightness, wet) * light;
+}
+#elif defined(RIDGES)
 // Small waves run along a roll that is pushed, faster than an eye follows: it sees the mean of what their slopes show, and so a lamp as a streak along
 // the blade. How far that reaches (by eye: slopes of some 0.1 either way).
 const float kWaves_rad = 0.06;
@@ -175,6 +214,15 @@ vec3 throughFilm(vec4 water, View view, out vec3 blurred) {
 #endif
 #endif
 
+#ifdef SOFT
+void main() {
+  float to_glass_m = length(i.from_eye);
+  vec3 view = i.from_eye / to_glass_m, normal = normalize(i.normal);
+  vec2 at = (gl_FragCoord.xy - frame.viewport.xy) / frame.viewport.zw;
+  vec3 within = refract(view, -normal, 1.0 / kWaterIndex);
+  color = vec4(encode(throughFilmSoftly(View(at, view, within, normal, to_glass_m, behindGlass_m(to_glass_m)))), 1.0);
+}
+#else
 void main() {
 #ifndef FILM
   vec4 water = vec4(0.0);
@@ -266,3 +314,4 @@ void main() {
 #endif
   color = vec4(encode(light), 1.0);
 }
+#endif

@@ -77,53 +77,6 @@ TEST_F(Look, inAUniformWorldWaterIsInvisible) {
   EXPECT_LT(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.025f);
 }
 
-// A pupil's points see drops elsewhere before what is far away: the picture is the mean of theirs, here
-// of 37.
-TEST_F(Look, dropsOutOfFocusAreTheMeanOfWhatThePupilsPointsSee) {
-  FlatPane pane(gl, kRake, 0.8, 128);
-  pane.putDrops(scatter(pane, 40, 4e-3, glm::radians(50.0), 5));
-  pane.putBeads([](double u, double v) { return std::abs(u) < 0.02 && std::abs(v) < 0.03 ? 1 : 0; }, 0.2,
-                glm::radians(40.0));
-  const gl::TextureCube cube =
-      makeCube(gl, 16, [](const glm::vec3& towards) { return glm::vec3(towards.z > 0.0f ? 1.0f : 0.1f); });
-  Scene scene = inside({192, 108});
-  const glm::vec3 behind(0.4f, 0.5f, 0.6f);
-  scene.picture = paint(scene.size_px, [&](int, int) { return behind; });
-  scene.light.environment_cube = cube.name();
-  scene.depths.assign(scene.picture.size(), 1.0f);
-  constexpr double kPupil_m = 0.01;
-  look.settings.pupil_m = static_cast<float>(kPupil_m);
-  const Picture unsharp = draw(gl, look, scene, {&pane.pane, 1});
-
-  look.settings.pupil_m = 0.0f;
-  Picture mean, sharp;
-  int eyes = 0;
-  for (int k = 0; k < 49; ++k) {
-    const glm::dvec2 at = glm::dvec2(k % 7 - 3, k / 7 - 3) / 7.0 * kPupil_m;
-    if (glm::length(at) > 0.5 * kPupil_m) continue;
-    scene.view = forwardView(scene.size_px, kFov, {-0.65, at.x, at.y});
-    const Picture seen = draw(gl, look, scene, {&pane.pane, 1});
-    if (glm::length(at) == 0.0) sharp = seen;
-    if (mean.pixels.empty()) mean = {seen.width, seen.height, std::vector<glm::vec4>(seen.pixels.size())};
-    for (size_t p = 0; p < seen.pixels.size(); ++p) mean.pixels[p] += seen.pixels[p];
-    ++eyes;
-  }
-  double wrong = 0.0, sharp_wrong = 0.0, drawn = 0.0, light = 0.0, mean_light = 0.0;
-  for (size_t p = 0; p < mean.pixels.size(); ++p) {
-    const glm::dvec3 oracle = glm::dvec3(mean.pixels[p]) / static_cast<double>(eyes);
-    const glm::dvec3 got(unsharp.pixels[p]);
-    wrong += glm::dot(got - oracle, got - oracle);
-    sharp_wrong += glm::dot(glm::dvec3(sharp.pixels[p]) - oracle, glm::dvec3(sharp.pixels[p]) - oracle);
-    drawn += glm::dot(oracle - glm::dvec3(behind), oracle - glm::dvec3(behind));
-    light += got.x - static_cast<double>(behind.x);
-    mean_light += oracle.x - static_cast<double>(behind.x);
-  }
-  // A few texels stand for the disc, and the drops' own light is as the pupil's middle sees it.
-  EXPECT_LT(std::sqrt(wrong / drawn), 0.45);
-  EXPECT_GT(std::sqrt(sharp_wrong / drawn), 2.0);
-  EXPECT_NEAR(light / mean_light, 1.0, 0.03);
-}
-
 TEST_F(Look, aCraterBendsTheViewWhereThereIsFilmAndNowhereElse) {
   FlatPane pane(gl, kRake, 0.8, 256);
   Scene scene = inside({640, 360});

@@ -276,7 +276,7 @@ void GlassLook::Parts::drawInside(const LookPane& pane, uint32_t parts) {
   if (pane.piece_buffer != 0) return drawPieces(pane, parts);
   bindMesh(pane, pane.index_buffer);
   const uint32_t all = kFilm | kBeads | (pane.blades.empty() ? kPlain : kRidges);
-  programs.use(LookStage::pane, variant | kInside | (all & parts) | (parts & kApart));
+  programs.use(LookStage::pane, variant | kInside | (all & parts) | (parts & (kApart | kSoft)));
   gl.DrawElements(GL_TRIANGLES, pane.index_count, GL_UNSIGNED_INT, nullptr);
 }
 
@@ -286,7 +286,7 @@ void GlassLook::Parts::drawPieces(const LookPane& pane, uint32_t parts) {
   gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, water.commands());
   const auto draw = [&](uint32_t kind, uint32_t all) {
     if ((all & parts) == 0) return;
-    programs.use(LookStage::pane, variant | kInside | (all & parts) | (parts & kApart));
+    programs.use(LookStage::pane, variant | kInside | (all & parts) | (parts & (kApart | kSoft)));
     const auto at = static_cast<uintptr_t>(shared::listOf(kind)) * sizeof(GLuint) * 5;
     gl.DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(at));
   };
@@ -434,7 +434,7 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     p.bindLook(light, target);
     if (with_lamps) p.lamps.hide();
     const bool unsharp = settings.pupil_m > 0.0f && target.depth_texture != 0 && pane.mirror <= 0.0f;
-    p.drawWater(pane, unsharp ? kFilm | kRidges : kFilm | kBeads | kRidges);
+    p.drawWater(pane, unsharp ? kFilm | kRidges | kSoft : kFilm | kBeads | kRidges);
     if (unsharp) {
       p.drawUnsharp(pane, view, target);
     } else if (pane.drop_count > 0) {

@@ -24,7 +24,7 @@ constexpr std::array<Source, 15> kSources{
      {"glass/look_water.vert", "glass/look_water.frag", kEverywhere},
      {"glass/look_crater.vert", "glass/look_crater.frag", kPlain},
      {"glass/look_pane.vert", "glass/look_pane.frag",
-      kInside | kCoarse | kFilm | kBeads | kRidges | kMirror | kApart | kLit},
+      kInside | kCoarse | kFilm | kBeads | kRidges | kMirror | kApart | kSoft | kLit},
      {"glass/look_pane.vert", "glass/look_fog.frag", kLit},
      {"glass/look_place.comp", "", kMirror | kLamps | kLit},
      {"glass/look_pick.comp", "", kPlain},
@@ -38,7 +38,7 @@ struct Name {
   LookVariant variant;
   const char* define;
 };
-constexpr std::array<Name, 11> kNames{{{kInside, "INSIDE"},
+constexpr std::array<Name, 12> kNames{{{kInside, "INSIDE"},
                                        {kCoarse, "COARSE"},
                                        {kEnvironment, "ENVIRONMENT"},
                                        {kLamps, "LAMPS"},
@@ -48,7 +48,8 @@ constexpr std::array<Name, 11> kNames{{{kInside, "INSIDE"},
                                        {kMirror, "MIRROR"},
                                        {kRidges, "RIDGES"},
                                        {kEverywhere, "EVERYWHERE"},
-                                       {kApart, "APART"}}};
+                                       {kApart, "APART"},
+                                       {kSoft, "SOFT"}}};
 
 gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant) {
   std::vector<std::string> defines;
@@ -64,7 +65,8 @@ gl::Program make(const GladGLContext& gl, const Source& source, uint32_t variant
 uint32_t askedOf(LookStage stage, uint32_t variant) {
   uint32_t asked = variant & kSources[static_cast<size_t>(stage)].asks;
   if (stage != LookStage::pane) return asked;
-  if ((asked & kFilm) == 0 || (asked & kInside) == 0) asked &= ~uint32_t{kCoarse};
+  if ((asked & kFilm) == 0 || (asked & kInside) == 0) asked &= ~(kCoarse | kSoft);
+  if ((asked & kSoft) != 0) asked &= ~uint32_t{kCoarse};
   if ((asked & kInside) != 0 && (asked & kBeads) == 0) asked &= ~uint32_t{kEnvironment};
   return asked;
 }
@@ -82,11 +84,11 @@ void LookPrograms::makeAll(uint32_t encoded) {
   made(cells, kRidges);
   for (const uint32_t around : {kEnvironment, kPlain}) {
     const uint32_t lit = encoded | around;
+    for (const uint32_t coarse : {kPlain, kCoarse}) made(pane, lit | kInside | coarse | kFilm);
     for (const uint32_t ridges : {kPlain, kRidges}) {
-      for (const uint32_t coarse : {kPlain, kCoarse}) {
-        for (const uint32_t wet : {uint32_t{kFilm}, kFilm | kBeads})
-          made(pane, lit | kInside | coarse | wet | ridges);
-      }
+      for (const uint32_t coarse : {kPlain, kCoarse})
+        made(pane, lit | kInside | coarse | kFilm | kBeads | ridges);
+      made(pane, lit | kInside | kFilm | kSoft | ridges);
       for (const uint32_t mirror : {kPlain, kMirror}) made(pane, lit | kFilm | kBeads | mirror | ridges);
     }
     for (const uint32_t apart : {kPlain, kApart}) made(pane, lit | kInside | kBeads | apart);

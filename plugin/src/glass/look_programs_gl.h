@@ -43,7 +43,8 @@ enum LookVariant : uint32_t {
   kMirror = 128,      // a mirror, seen from its wet side
   kRidges = 256,      // blades push ridges
   kEverywhere = 512,  // water may be anywhere: nobody has sorted the cells
-  kApart = 1024       // beads alone, by what they cover, to be blurred before they lie over the picture
+  kApart = 1024,      // beads alone, by what they cover, to be blurred before they lie over the picture
+  kSoft = 2048        // film alone, as an eye sees it that looks past it
 };
 
 // All that may be wanted of a pane whose mesh is cut into pieces, for targets of linear radiance, are made
