@@ -394,7 +394,7 @@ void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
 void Renderer::drawWorld(const View& view, const Target& target, std::span<const InstanceId> whole) {
   Self& self = *self_;
   Self::What what = self.world();
-  for (InstanceId id : whole) what.emplace_back(&self.instances.at(id), kBody);
+  for (InstanceId id : whole) what.emplace_back(&self.instances.at(id), kBody | kWipers);
   bool mirror = false;
   self.timed("mirror", [&] {
     mirror = self.paintMirror(view, target.sizePx(), what);

@@ -67,13 +67,14 @@ struct Drawn : testing::Test {
   Picture picture{*context, kSize};
   Sky sky;
 
-  std::vector<std::uint8_t> draw(glm::dvec3 origin_m = glm::dvec3(0.0)) {
+  std::vector<std::uint8_t> draw(glm::dvec3 origin_m = glm::dvec3(0.0),
+                                 std::span<const InstanceId> whole = {}) {
     const glm::dvec3 eye = origin_m + glm::dvec3(0.0, 0.0, 1.5);
     const View view{glm::lookAt(glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(1.0, 0.0, 1.4), glm::dvec3(0, 0, 1)) *
                         glm::translate(glm::dmat4(1.0), -origin_m),
                     reversedPerspective(1.0, kSize)};
     renderer.beginFrame(sky, eye);
-    renderer.drawWorld(view, target);
+    renderer.drawWorld(view, target, whole);
     renderer.toneMap(target, picture.framebuffer(), exposureFor(renderer.adaptingLuminance(eye)));
     EXPECT_EQ(context->glErrors(), 0U);
     return picture.read();
@@ -106,6 +107,20 @@ TEST_F(Drawn, isTheSameAThousandKilometresAway) {
   for (std::size_t i = 0; i < here.size(); ++i)
     worst = std::max(worst, std::abs(int{here[i]} - int{there[i]}));
   EXPECT_LE(worst, 1);  // the eye's own position is rounded to 0.1 nm there; one grey level of rounding
+}
+
+TEST_F(Drawn, aCarSeenFromOutsideHasItsWipers) {
+  Scene body;  // a car's file looks along +z
+  body.materials = {paint({0.7F, 0.02F, 0.02F}), paint({0.02F, 0.7F, 0.02F})};
+  add(body, box({-3, 0, 20}, {3, 3, 21}, 1));
+  add(body, box({-1, 0, 10}, {1, 2, 11}, 0));
+  body.nodes.back().meaning = WiperMeaning{};
+  const InstanceId car = renderer.addInstance(renderer.addScene(body, SceneFrame::Car));
+  sky.rain_mm_h = 5.0;
+  const auto rgb = draw(glm::dvec3(0.0), {&car, 1});
+  const glm::ivec3 middle = at(rgb, 80, 48), beside = at(rgb, 99, 30);
+  EXPECT_GT(middle.x, 2 * middle.y);
+  EXPECT_GT(beside.y, 2 * beside.x);
 }
 
 // A mirror 3 m ahead, facing the eye: on the left it shows the green box that stands behind the eye on the
