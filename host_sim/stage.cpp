@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "drive/instruments.h"
 #include "image/hdr.h"
 
 namespace host {
@@ -224,6 +225,7 @@ void Stage::pose(int64_t time_ns) {
         std::fmod(car.driven_m / static_cast<double>(w.radius_m), 2.0 * glm::pi<double>()));
     turnNode(*car_scene_, w.node, {1.0F, 0.0F, 0.0F}, spin, poses_);
   }
+  poseInstruments(*car_scene_, car_, car.speed_mps, poses_);
   Placement placement;
   placement.world_from_host = glm::mat4_cast(car.orientation);
   placement.world_from_host[3] = glm::dvec4(car.position_m, 1.0);

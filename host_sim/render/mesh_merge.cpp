@@ -26,7 +26,8 @@ std::vector<int> bodiesOf(const Scene& scene, std::vector<int>& bodies) {
   for (int index : scene.order) {
     const auto i = static_cast<std::size_t>(index);
     const Node& node = scene.nodes[i];
-    if (moves[i] || means<WiperMeaning, WheelMeaning, SteeringWheelMeaning>(node)) {
+    if (moves[i] ||
+        means<WiperMeaning, WheelMeaning, SteeringWheelMeaning, NeedleMeaning, DigitMeaning>(node)) {
       body[i] = static_cast<int>(bodies.size());
       bodies.push_back(index);
     } else if (node.parent >= 0) {

@@ -51,7 +51,7 @@ struct Placement {
   /// of a road.
   glm::dmat4 world_from_host{1.0};
   /// Poses of all nodes (Scene::restPoses(), changed), or empty: at rest. Only nodes that can move follow it:
-  /// wipers, wheels, steering wheels, animated nodes, and what hangs below them.
+  /// wipers, wheels, steering wheels, needles, digits, animated nodes, and what hangs below them.
   std::vector<Pose> poses;
   /// How bright lamps shine and glowing meshes glow, by LightRole; 1 = as in the file, 0 = off.
   std::array<float, 6> lamp_levels{0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F};

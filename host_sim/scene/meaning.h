@@ -15,6 +15,8 @@ inline constexpr std::array<std::pair<const char*, GlassSurface>, 4> kGlassSurfa
      {"dirty", GlassSurface::Dirty},
      {"coated", GlassSurface::Coated},
      {"new_coating", GlassSurface::NewCoating}}};
+/// What an instrument tells.
+enum class Reading { Speed_kmh, Engine_rpm };
 enum class LightRole { Head, Tail, Brake, Indicator, Street, Interior };
 
 struct PaneMeaning {
@@ -68,14 +70,27 @@ struct SteeringWheelMeaning {
   float ratio = 15.0F;  ///< steering wheel angle / road wheel angle
 };
 
+struct NeedleMeaning {
+  Reading shows = Reading::Speed_kmh;
+  float full = 0.0F;       ///< what it shows at the end of its scale
+  float sweep_rad = 0.0F;  ///< signed, about the node's +Y, from 0 to there
+};
+
+/// A drum of kDigitSides sides, turned about its node's +Y: an empty one, at rest in front, then 0 to 9.
+struct DigitMeaning {
+  Reading shows = Reading::Speed_kmh;
+  int place = 0;  ///< 0 the ones, 1 the tens, ..
+};
+inline constexpr int kDigitSides = 11;
+
 struct MirrorMeaning {
   std::string name;
   bool wet = false;  ///< rain falls on it
 };
 
 /// monostate: an ordinary node.
-using Meaning =
-    std::variant<std::monostate, PaneMeaning, ShelterMeaning, WiperMeaning, EyeMeaning, CameraMeaning,
-                 RouteMeaning, LightMeaning, WheelMeaning, SteeringWheelMeaning, MirrorMeaning>;
+using Meaning = std::variant<std::monostate, PaneMeaning, ShelterMeaning, WiperMeaning, EyeMeaning,
+                             CameraMeaning, RouteMeaning, LightMeaning, WheelMeaning, SteeringWheelMeaning,
+                             NeedleMeaning, DigitMeaning, MirrorMeaning>;
 
 }  // namespace host

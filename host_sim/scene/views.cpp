@@ -149,6 +149,12 @@ void readParts(const Scene& scene, const glm::mat4& frame, CarView& car) {
         const glm::mat4 matrix = frame * node.scene_from_node;
         car.steering_wheel = SteeringWheelView{index, origin(matrix), unitAxis(matrix, 1), wheel.ratio};
       });
+  eachMeaning<NeedleMeaning>(scene, [&](int index, const Node&, const NeedleMeaning& needle) {
+    car.needles.push_back({index, needle});
+  });
+  eachMeaning<DigitMeaning>(scene, [&](int index, const Node&, const DigitMeaning& digit) {
+    car.digits.push_back({index, digit});
+  });
   eachMeaning<MirrorMeaning>(scene, [&](int index, const Node& node, const MirrorMeaning& mirror) {
     const glm::mat4 matrix = frame * node.scene_from_node;
     const Mesh& mesh = meshOf(scene, node);

@@ -92,6 +92,16 @@ struct SteeringWheelView {
   float ratio = 15.0F;
 };
 
+struct NeedleView {
+  int node = -1;  ///< turned about its local +Y
+  NeedleMeaning scale;
+};
+
+struct DigitView {
+  int node = -1;  ///< turned about its local +Y
+  DigitMeaning drum;
+};
+
 struct MirrorView {
   std::string name;
   int node = -1;
@@ -110,6 +120,8 @@ struct CarView {
   std::vector<LampView> lamps;
   std::vector<WheelView> wheels;
   std::optional<SteeringWheelView> steering_wheel;
+  std::vector<NeedleView> needles;
+  std::vector<DigitView> digits;
   std::vector<MirrorView> mirrors;
 };
 
@@ -130,8 +142,7 @@ CarView carView(const Scene& scene);
 RoadView roadView(const Scene& scene);
 
 /// Turns a node by an angle about an axis of its own, from where it rests, by setting its rotation in
-/// `poses`: a wiper's about +Y, a wheel's about +X, a steering wheel's about +Y. (Does nothing visible to a
-/// node with a matrix.)
+/// `poses`: a wheel's about +X, all others' about +Y. (Does nothing visible to a node with a matrix.)
 void turnNode(const Scene& scene, int node, glm::vec3 local_axis, float angle_rad, std::vector<Pose>& poses);
 
 }  // namespace host

@@ -344,6 +344,48 @@ const std::vector<Break> kBreaks = {
      "node 7 \"brake\": extras.rainglass: a light needs"},
     {"wheelTooSmall", [](Gltf& g) { meaning(g, 8)["radius_m"] = 0; },
      "node 8 \"wheel_fl\": extras.rainglass.radius_m is 0"},
+    {"needleOfNothing",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "needle"}, {"full", 240}, {"sweep_deg", -264}};
+     },
+     "node 5 \"eye\": extras.rainglass.shows is missing"},
+    {"needleOfAnUnknownReading",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "needle"}, {"shows", "fuel"}, {"full", 240}, {"sweep_deg", -264}};
+     },
+     "extras.rainglass.shows is \"fuel\", must be one of speed_kmh, engine_rpm"},
+    {"needleOfNoScale",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "needle"}, {"shows", "speed_kmh"}, {"full", 0}, {"sweep_deg", -264}};
+     },
+     "extras.rainglass.full is 0, must be 1..100000"},
+    {"needleThatDoesNotTurn",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "needle"}, {"shows", "speed_kmh"}, {"full", 240}};
+     },
+     "extras.rainglass.sweep_deg is missing"},
+    {"needleMirrored",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "needle"}, {"shows", "speed_kmh"}, {"full", 240}, {"sweep_deg", -264}};
+       node(g, 5)["scale"] = {1, -1, 1};
+     },
+     "node 5 \"eye\": extras.rainglass: a needle must not be mirrored"},
+    {"digitOfHalfAPlace",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "digit"}, {"shows", "speed_kmh"}, {"place", 0.5}};
+     },
+     "node 5 \"eye\": extras.rainglass.place is 0.5"},
+    {"digitOfMillions",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "digit"}, {"shows", "speed_kmh"}, {"place", 6}};
+     },
+     "extras.rainglass.place is 6, must be 0..5"},
+    {"digitMirrored",
+     [](Gltf& g) {
+       meaning(g, 5) = {{"type", "digit"}, {"shows", "engine_rpm"}, {"place", 0}};
+       node(g, 5)["scale"] = {1, -1, 1};
+     },
+     "node 5 \"eye\": extras.rainglass: a digit must not be mirrored"},
     {"mirrorWithoutMesh", [](Gltf& g) { node(g, 10).erase("mesh"); },
      "node 10 \"mirror\": extras.rainglass: a mirror needs a mesh"},
     {"wetMirrorWithoutUv",

@@ -135,6 +135,23 @@ TEST(CarView, camerasOfTheCarsOwnAreInTheVehicleFrame) {
   EXPECT_TRUE(view.cameras[0].inside);
 }
 
+TEST(CarView, needlesAndDigitsTellWhatTheyShow) {
+  files::Gltf g = files::wholeCar();
+  g.json["nodes"][5]["extras"]["rainglass"] = {
+      {"type", "needle"}, {"shows", "engine_rpm"}, {"full", 8000}, {"sweep_deg", -180}};
+  g.json["nodes"][9]["extras"]["rainglass"] = {{"type", "digit"}, {"shows", "speed_kmh"}, {"place", 2}};
+  const host::CarView view = host::carView(load(g));
+  ASSERT_EQ(view.needles.size(), 1U);
+  EXPECT_EQ(view.needles[0].node, 5);
+  EXPECT_EQ(view.needles[0].scale.shows, host::Reading::Engine_rpm);
+  EXPECT_FLOAT_EQ(view.needles[0].scale.full, 8000.0F);
+  EXPECT_NEAR(view.needles[0].scale.sweep_rad, -3.1415927F, kRounding);
+  ASSERT_EQ(view.digits.size(), 1U);
+  EXPECT_EQ(view.digits[0].node, 9);
+  EXPECT_EQ(view.digits[0].drum.shows, host::Reading::Speed_kmh);
+  EXPECT_EQ(view.digits[0].drum.place, 2);
+}
+
 TEST(CarView, carWithoutExtrasHasADefaultEyeAndNoGlass) {
   files::Gltf g = files::wholeCar();
   for (auto& node : g.json["nodes"]) node.erase("extras");

@@ -76,6 +76,8 @@ struct Check {
   void operator()(int node, const LightMeaning&) const;
   void operator()(int node, const WheelMeaning&) const { needAxes(node, "wheel"); }
   void operator()(int node, const SteeringWheelMeaning&);
+  void operator()(int node, const NeedleMeaning&) const { needAxes(node, "needle"); }
+  void operator()(int node, const DigitMeaning&) const { needAxes(node, "digit"); }
   void operator()(int node, const MirrorMeaning& mirror) const {
     if (mirror.wet)
       needUv(node, "mirror that is wet");

@@ -119,13 +119,30 @@ Meaning readSteeringWheel(const Fields& f) {
   return SteeringWheelMeaning{static_cast<float>(f.number("ratio", 1.0, 100.0, 15.0))};
 }
 
+Reading readReading(const Fields& f) {
+  static constexpr std::array<std::pair<const char*, Reading>, 2> kReadings = {
+      {{"speed_kmh", Reading::Speed_kmh}, {"engine_rpm", Reading::Engine_rpm}}};
+  return oneOf(f, "shows", kReadings, f.text("shows", 1000));
+}
+
+Meaning readNeedle(const Fields& f) {
+  f.allowOnly({"type", "shows", "full", "sweep_deg"});
+  return NeedleMeaning{readReading(f), static_cast<float>(f.number("full", 1.0, 1e5)),
+                       radians(f, "sweep_deg", -360.0, 360.0, {})};
+}
+
+Meaning readDigit(const Fields& f) {
+  f.allowOnly({"type", "shows", "place"});
+  return DigitMeaning{readReading(f), static_cast<int>(f.integer("place", 0, 5))};
+}
+
 Meaning readMirror(const Fields& f) {
   f.allowOnly({"type", "name", "wet"});
   return MirrorMeaning{f.text("name", kLongestName_bytes, ""), f.flag("wet", false)};
 }
 
 using Read = Meaning (*)(const Fields&);
-constexpr std::array<std::pair<const char*, Read>, 10> kTypes = {{{"pane", readPane},
+constexpr std::array<std::pair<const char*, Read>, 12> kTypes = {{{"pane", readPane},
                                                                   {"shelter", readShelter},
                                                                   {"wiper", readWiper},
                                                                   {"eye", readEye},
@@ -134,6 +151,8 @@ constexpr std::array<std::pair<const char*, Read>, 10> kTypes = {{{"pane", readP
                                                                   {"light", readLight},
                                                                   {"wheel", readWheel},
                                                                   {"steering_wheel", readSteeringWheel},
+                                                                  {"needle", readNeedle},
+                                                                  {"digit", readDigit},
                                                                   {"mirror", readMirror}}};
 
 }  // namespace
