@@ -18,6 +18,7 @@ import car_camera  # noqa: E402
 import car_controls  # noqa: E402
 import car_dash  # noqa: E402
 import car_glass  # noqa: E402
+import car_instruments  # noqa: E402
 import car_seat  # noqa: E402
 import car_shape  # noqa: E402
 import car_wheel  # noqa: E402
@@ -31,7 +32,7 @@ def main(out):
     car_glass.make_panes(material)
     hull = car_glass.make_shelter(material)
     wipers = car_wiper.make_wipers(material)
-    for part in (car_body, car_wheel, car_cabin, car_dash, car_controls, car_seat, car_camera):
+    for part in (car_body, car_wheel, car_cabin, car_dash, car_instruments, car_controls, car_seat, car_camera):
         part.make(material)
     place(bpy.data.objects.new("eye", None), car_shape.EYE, rainglass={"type": "eye", "pitch_deg": -3.0, "fov_deg": 74.0})
     print("\n".join(car_wiper.report(wipers) + car_glass.report_shelter(*hull)))

@@ -64,7 +64,7 @@ def main(path):
     kinds = {}
     for _, s in said:
         kinds[s["type"]] = kinds.get(s["type"], 0) + 1
-    for kind, least in dict(pane=7, shelter=1, wiper=2, eye=1, camera=3, wheel=4, steering_wheel=1, mirror=3, light=5).items():
+    for kind, least in dict(pane=7, shelter=1, wiper=2, eye=1, camera=3, wheel=4, steering_wheel=1, needle=2, digit=3, mirror=3, light=5).items():
         assert kinds.get(kind, 0) >= least, f"{kind}: {kinds.get(kind, 0)} nodes, expected {least}"
     names = {s["name"] for _, s in said if s["type"] == "pane"}
     assert all(s["pane"] in names for _, s in said if s["type"] == "wiper"), "a wiper names no pane"

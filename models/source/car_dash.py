@@ -85,7 +85,7 @@ def decor(dash):
 
 
 def hood(dash):
-    """Arched hood over the instruments, its mouth towards the driver, and the dial face inside."""
+    """Arched hood over the instruments, its mouth towards the driver."""
     a = np.linspace(0, np.pi, 33)
     cy, cz = np.sign(np.cos(a)) * np.abs(np.cos(a))**0.55, np.abs(np.sin(a))**0.60
 
@@ -97,20 +97,8 @@ def hood(dash):
     inner = [arch(1.583, 0.179, 0.87, 1.042, 0.006), arch(1.60, 0.179, 0.87, 1.038, 0.010), arch(1.695, 0.172, 0.87, 1.026, 0.012)]
     dash.add(np.array(outer), flipped(grid_faces(len(outer), 33)), "dash")
     dash.add(np.array([outer[-1]] + inner), flipped(grid_faces(4, 33)), "black_plastic")
-    n = unit(shape.EYE - [1.66, DRIVER_Y, 0.955])
-    up = unit(np.cross(n, [0, 1.0, 0]))
-    up = up if up[2] > 0 else -up
-    c = np.array([1.645, DRIVER_Y, 0.958])
-    half_w, half_h = 0.150, 0.060
-    corners = np.array([c + [0, half_w, 0] - up * half_h, c - [0, half_w, 0] - up * half_h, c - [0, half_w, 0] + up * half_h, c + [0, half_w, 0] + up * half_h])
-    dash.add(corners, [(0, 1, 2, 3)], "dials", uvs=[(0, 0), (1, 0), (1, 1), (0, 1)])
     wall = inner[-1] + [0.001, 0, 0]
     dash.add(wall, [tuple(range(33))[::-1]], "black_plastic", np.tile([-1.0, 0, 0], (33, 1)))
-    for y in (-0.090, 0.090):  # chromed rings of the two dials
-        ring = c + n * 0.003 + np.array([0, y, 0]) + 0.0535 * (np.cos(np.linspace(0, 2 * np.pi, 40, endpoint=False))[:, None] * np.array([0, 1.0, 0])
-                                                             + np.sin(np.linspace(0, 2 * np.pi, 40, endpoint=False))[:, None] * up)
-        v, f = tube(ring, 0.0022, 6, closed=True, up=n)
-        dash.add(v, f, "satin")
 
 
 def vent(dash, y, d, width, height, slats=5):

@@ -30,6 +30,8 @@ TABLE = {
     "belt": ((0.020, 0.020, 0.021), 0.0, 0.60, {}),
     "piano": ((0.008, 0.008, 0.009), 0.0, 0.07, {}),
     "dials": ("dials", 0.0, 0.30, {"emissive": "dials"}),
+    "digits": ("digits", 0.0, 0.30, {"emissive": "digits"}),
+    "needle": ((0.85, 0.12, 0.04), 0.0, 0.30, {"glow": (0.85, 0.12, 0.04)}),
     "screen": ("screen", 0.0, 0.10, {"emissive": "screen"}),
     "mirror": ((0.85, 0.86, 0.86), 1.0, 0.02, {}),
     "plate": ("plate", 0.0, 0.45, {}),
@@ -121,6 +123,7 @@ PICTURES = {
     "felt": lambda: tinted((0.56, 0.55, 0.53), 1 + 0.07 * noise(256, [(100, 1), (30, 0.5)], 6)),
     "carpet": lambda: tinted((0.028, 0.028, 0.030), 1 + 0.30 * noise(256, [(100, 1), (40, 0.5)], 7)),
     "dials": car_pictures.dials,
+    "digits": car_pictures.digits,
     "screen": car_pictures.screen,
     "plate": car_pictures.plate,
 }

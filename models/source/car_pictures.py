@@ -53,37 +53,51 @@ class Canvas:
                     self.line(a, b, width or height * 0.16, color)
 
 
-def dial(c, centre, r, labels, ticks, value, red_from=2.0):
+# Needles and digits are nodes that the host turns (car_instruments.py); they go by what is said here.
+SCALE_FROM_DEG, SCALE_SWEEP_DEG = 222.0, -264.0   # counter-clockwise from the right
+ENGINE_MOST, SPEED_MOST_KMH = 8, 240              # thousand rpm, km/h
+DIALS_PX, DIAL_PX, ENGINE_AT_PX, SPEED_AT_PX = (640, 256), 112, (128, 128), (512, 128)
+DISPLAY, DIGIT_PX, ONES_AT_PX = (0.013, 0.017, 0.024), (32, 44), (341, 160)
+DIGIT_APART_PX = 48                               # in their own picture, so that smaller copies of it keep them apart
+
+
+def dial(c, centre, r, labels, ticks, red_from=2.0):
     white, red = (0.85, 0.87, 0.90), (0.75, 0.05, 0.03)
     c.disc(centre, r, (0.010, 0.011, 0.013))
     c.ring(centre, r, 3, (0.20, 0.21, 0.22))
-    at = lambda f, k: (centre[0] + k * r * np.cos(np.radians(222 - 264 * f)), centre[1] + k * r * np.sin(np.radians(222 - 264 * f)))
+    angle = lambda f: np.radians(SCALE_FROM_DEG + SCALE_SWEEP_DEG * f)
+    at = lambda f, k: (centre[0] + k * r * np.cos(angle(f)), centre[1] + k * r * np.sin(angle(f)))
     for i in range(ticks * (len(labels) - 1) + 1):
         f = i / (ticks * (len(labels) - 1))
         major = i % ticks == 0
         c.line(at(f, 0.80 if major else 0.87), at(f, 0.94), 3.0 if major else 1.6, red if f >= red_from else white)
     for i, label in enumerate(labels):
         c.text(label, at(i / (len(labels) - 1), 0.63), r * 0.115, white, 1.9)
-    c.line(at(value, -0.12), at(value, 0.86), 4.5, (0.85, 0.12, 0.04))
-    c.disc(centre, r * 0.12, (0.03, 0.03, 0.032))
-    c.ring(centre, r * 0.12, 1.5, (0.15, 0.15, 0.16))
 
 
 def dials():
     """Rev counter, display, speedometer; 3 : 1.2."""
-    c = Canvas(640, 256, (0.006, 0.006, 0.007))
-    dial(c, (128, 128), 112, [str(i) for i in range(9)], 5, 0.27, 0.74)
-    dial(c, (512, 128), 112, [str(i) for i in range(0, 241, 40)], 4, 0.333)
+    c = Canvas(*DIALS_PX, (0.006, 0.006, 0.007))
+    dial(c, ENGINE_AT_PX, DIAL_PX, [str(i) for i in range(ENGINE_MOST + 1)], 5, 0.74)
+    dial(c, SPEED_AT_PX, DIAL_PX, [str(i) for i in range(0, SPEED_MOST_KMH + 1, 40)], 4)
     c.text("X1000", (128, 92), 10, (0.5, 0.5, 0.5), 1.3)
     c.text("KM/H", (512, 92), 11, (0.5, 0.5, 0.5), 1.3)
-    c.box(258, 42, 382, 214, (0.013, 0.017, 0.024), 10)
-    c.text("80", (320, 160), 40, (0.85, 0.88, 0.92), 4.5)
+    c.box(258, 42, 382, 214, DISPLAY, 10)
     c.text("KM/H", (320, 122), 11, (0.45, 0.5, 0.55), 1.5)
     c.line((272, 104), (368, 104), 1.2, (0.15, 0.2, 0.25))
     c.text("8.5 °C", (320, 86), 13, (0.6, 0.65, 0.7), 1.7)
     c.text("12480", (320, 60), 11, (0.35, 0.38, 0.4), 1.4)
     for k, color in enumerate([(0.02, 0.35, 0.05), (0.35, 0.20, 0.01)]):
         c.disc((296 + 48 * k, 226), 6, color)
+    return c.rgb
+
+
+def digits():
+    """0 to 9 in a row, as the display shows them; two pixels for one of the dials'."""
+    w, h = DIGIT_APART_PX, DIGIT_PX[1]
+    c = Canvas(20 * w, 2 * h, DISPLAY)
+    for k in range(10):
+        c.text(str(k), ((2 * k + 1) * w, h), 74, (0.85, 0.88, 0.92), 8.5)
     return c.rgb
 
 
