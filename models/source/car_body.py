@@ -440,12 +440,16 @@ def door_mirrors(material_of):
         part = Part("door_mirror_" + hand)
         flip = np.array([1, sign, 1])
         c = np.array([1.800, 0.985, 1.045])
+        # The face looks back at the middle between the driver's eye and nearly straight behind; the housing turns with it, but does not tilt.
+        face = unit(unit(shape.EYE - c * flip) + unit([-1.0, 0.06 * sign, -0.02]))
+        ahead = -unit(face * [1, 1, 0])
+        turn = np.array([ahead, [-ahead[1], ahead[0], 0], [0, 0, 1]])
         profile = [(0.03, 0.0), (0.075, 0.006), (0.098, 0.035), (0.100, 0.085), (0.094, 0.098)]
         a = np.linspace(0, 2 * np.pi, 28, endpoint=False)
         squircle = np.sign(np.cos(a)) * np.abs(np.cos(a))**0.62, np.sign(np.sin(a)) * np.abs(np.sin(a))**0.62
-        rows = np.array([[c + [0.055 - d, 1.05 * r * cy, 0.66 * r * cz] for cy, cz in zip(*squircle)] for r, d in profile])
-        lip = np.array([[c + [0.055 - 0.088, 1.05 * 0.086 * cy, 0.66 * 0.082 * cz] for cy, cz in zip(*squircle)]])
-        rows = np.concatenate([rows, lip]) * flip
+        rows = np.array([[[0.055 - d, 1.05 * r * cy, 0.66 * r * cz] for cy, cz in zip(*squircle)] for r, d in profile])
+        lip = np.array([[[0.055 - 0.088, 1.05 * 0.086 * cy, 0.66 * 0.082 * cz] for cy, cz in zip(*squircle)]])
+        rows = np.concatenate([rows, lip]) * flip @ turn + c * flip
         n = len(a)
         faces = grid_faces(len(rows), n, wrap_cols=True) + [tuple(range(n))[::-1]]
         part.add(rows.reshape(-1, 3), flipped(faces) if sign > 0 else faces, "paint")
@@ -453,10 +457,7 @@ def door_mirrors(material_of):
         v, f = tube(spline(foot, 4), 1.0, section=[(-0.028, -0.020), (0.028, -0.020), (0.028, 0.012), (-0.028, 0.012)])
         part.add(v * flip, f if sign > 0 else flipped(f), "black_plastic")
         part.build(material_of)
-        # The face looks back at the middle between the driver's eye and straight behind.
-        at = (c + [0.055 - 0.087, 0, 0]) * flip
-        face = unit(unit(shape.EYE - at) + unit([-1.0, 0.06 * sign, -0.02]))
-        face = unit(np.array([face[0], face[1] * 0.35, face[2] * 0.3]))  # the housing hides the rest of the turn
+        at = c * flip + (0.055 - 0.087) * ahead
         mirror_face(material_of, "mirror_" + hand, at, face, [(1.05 * 0.080 * cy, 0.66 * 0.078 * cz) for cy, cz in zip(*squircle)], wet=True)
 
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/views.h"
 
@@ -71,6 +72,16 @@ TEST(Models, rainFallsOnTheMirrorsOutside) {
   EXPECT_EQ(car.mirrors.size(), 3U);
   for (const host::MirrorView& mirror : car.mirrors)
     EXPECT_EQ(mirror.wet, std::abs(mirror.centre_m.y) > side_m) << mirror.name;
+}
+
+TEST(Models, mirrorsShowTheDriverTheRoadBehind) {
+  const host::CarView car = host::carView(model("car.glb"));
+  ASSERT_EQ(car.mirrors.size(), 3U);
+  for (const host::MirrorView& mirror : car.mirrors) {
+    const glm::vec3 seen = glm::reflect(glm::normalize(mirror.centre_m - car.eye.position_m), mirror.normal);
+    EXPECT_LT(seen.x, -0.98F) << mirror.name << ": straight behind to 11 degrees";
+    EXPECT_LT(std::abs(seen.z), 0.1F) << mirror.name << ": the horizon is in it";
+  }
 }
 
 TEST(Models, lensStandsBeforeItsCameraAndDry) {
