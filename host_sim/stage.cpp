@@ -97,7 +97,7 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
     const SceneId car = renderer_->addScene(*car_scene_, SceneFrame::Car);
     car_instance_ = renderer_->addInstance(car);
     for (const MirrorView& m : car_.mirrors) {
-      if (m.wet) renderer_->addMirror(*car_instance_, m.face.positions_m, m.face.indices, m.normal);
+      renderer_->addMirror(*car_instance_, m.face.positions_m, m.face.indices, m.normal);
     }
     for (size_t k = 0; k < scenario.traffic.size(); ++k) traffic_.push_back(renderer_->addTraffic(car));
     poses_ = car_scene_->restPoses();

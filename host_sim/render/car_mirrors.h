@@ -1,4 +1,4 @@
-// What a car's flat mirrors show: the world drawn once more, through each that is seen.
+// What a car's flat mirrors show: the world and the car itself drawn once more, through each that is seen.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -263,6 +263,7 @@ Painted Renderer::Self::paintCarMirror(CarMirror& mirror, const View& view, cons
   gl.FrontFace(GL_CW);
   DrawList list(eye_m, frame.clip_from_rel, kLeastSize);
   for (const auto& [instance, parts] : world()) list.add(*instance, parts);
+  list.add(car, kBody);
   list.sort();
   painter.setFrame(frame, eye_m, lamps, grids, {environment.mirrored(), shadow.texture(), 0});
   const Painted painted = painter.paint(list);

@@ -440,8 +440,8 @@ def door_mirrors(material_of):
         part = Part("door_mirror_" + hand)
         flip = np.array([1, sign, 1])
         c = np.array([1.800, 0.985, 1.045])
-        # The face looks back at the middle between the driver's eye and nearly straight behind; the housing turns with it, but does not tilt.
-        face = unit(unit(shape.EYE - c * flip) + unit([-1.0, 0.06 * sign, -0.02]))
+        # The face looks back at the middle between the driver's eye and straight behind, the own flank at its edge; the housing turns with it, but does not tilt.
+        face = unit(unit(shape.EYE - c * flip) + unit([-1.0, 0.015 * sign, -0.02]))
         ahead = -unit(face * [1, 1, 0])
         turn = np.array([ahead, [-ahead[1], ahead[0], 0], [0, 0, 1]])
         profile = [(0.03, 0.0), (0.075, 0.006), (0.098, 0.035), (0.100, 0.085), (0.094, 0.098)]

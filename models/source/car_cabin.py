@@ -112,7 +112,7 @@ def tail_lining(cabin):
 def interior_mirror(material_of):
     part = Part("interior_mirror")
     at = np.array([1.535, 0.0, 1.262])
-    to_eye, back = unit(shape.EYE - at), unit(np.array([-1.0, 0, -0.06]))
+    to_eye, back = unit(shape.EYE - at), unit(np.array([-1.0, 0, -0.02]))
     n = unit(to_eye + back)
     right = unit(np.cross([0, 0, 1.0], n))
     up = np.cross(n, right)
