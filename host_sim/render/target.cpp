@@ -1,6 +1,7 @@
 #include "render/target.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 namespace host {
@@ -51,8 +52,11 @@ ColourPicture::~ColourPicture() {
 }
 
 MirrorPicture::MirrorPicture(const GladGLContext& gl, glm::ivec2 size_px) : gl_(gl), size_px_(size_px) {
+  constexpr int kMostLevels = 4;
+  const auto longer_px = static_cast<unsigned>(std::max(size_px.x, size_px.y));
   gl.CreateTextures(GL_TEXTURE_2D, 1, &colour_);
-  gl.TextureStorage2D(colour_, 4, GL_RGBA16F, size_px.x, size_px.y);
+  gl.TextureStorage2D(colour_, std::min(kMostLevels, static_cast<int>(std::bit_width(longer_px))), GL_RGBA16F,
+                      size_px.x, size_px.y);
   gl.TextureParameteri(colour_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   gl.TextureParameteri(colour_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl.TextureParameteri(colour_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);

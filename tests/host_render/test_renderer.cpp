@@ -154,6 +154,19 @@ TEST_F(Drawn, aCarsMirrorShowsWhatStandsBeforeItAndItsOwnCar) {
   EXPECT_GT(beside.x, 2 * beside.y) << "beside it there is";
 }
 
+// Far away, or in a small picture.
+TEST_F(Drawn, aMirrorOfAFewPixelsIsDrawn) {
+  const InstanceId road = renderer.addInstance(renderer.addScene(twoBoxes(), SceneFrame::Road));
+  const std::array<glm::vec3, 3> corners{{{3.0F, 0.05F, 1.4F}, {3.0F, -0.05F, 1.4F}, {3.0F, 0.0F, 1.5F}}};
+  renderer.addMirror(road, corners, std::array<std::uint32_t, 3>{0, 1, 2}, {-1.0F, 0.0F, 0.0F});
+  draw();
+  renderer.drawMirrors(
+      {glm::lookAt(glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(1.0, 0.0, 1.4), glm::dvec3(0, 0, 1)),
+       reversedPerspective(1.0, kSize)},
+      target);
+  EXPECT_EQ(context->glErrors(), 0U);
+}
+
 TEST_F(Drawn, theSunCastsShadowsAndRainHidesIt) {
   Scene scene = twoBoxes();
   add(scene, box({4, 6, -3}, {8, 6.5F, 3}, 0));  // a slab above the ground ahead
