@@ -12,19 +12,28 @@ layout(location = 0) out vec4 color;
 
 const float kEnlarged = 0.25;  // of the way to the middle; so little that a blade stays whole (unsourced)
 
-// Of the outline at a place against the ellipse's; at a corner's tip nothing is left of it.
-float narrowing(SeenDrop drop, float along) { return max(cornered(along / drop.head_stretch.w, drop.cap_outline.w), 0.02); }
-
-// Merged drops and those on dirty glass are not round, and those that run are pointed. Maps the glass so that the outline becomes the ellipse
-// that is traced.
+// Merged drops and those on dirty glass are not round. Maps the glass so that the outline becomes the one that is traced.
 vec2 straighten(SeenDrop drop, vec2 place) {
   float irregularity = drop.cap_outline.z;
-  if (irregularity == 0.0 && drop.cap_outline.w == 0.0) return place;
-  vec2 q = vec2(place.x / drop.head_stretch.w, place.y);
+  if (irregularity == 0.0) return place;
+  vec2 q = vec2(place.x / drop.head_stretch.w, place.y) * sign(drop.cap_outline.w);
   float phase = drop.beside_phase.y;
   float angle = atan(q.y, q.x) + phase;
   float ragged = irregularity * (0.07 * cos(2.0 * angle + 1.7 * phase) + 0.05 * cos(3.0 * angle) + 0.025 * cos(5.0 * angle - phase));
-  return vec2(place.x, place.y / narrowing(drop, place.x)) / (1.0 + ragged);
+  return place / (1.0 + ragged);
+}
+
+// Signed distance of a line from the cap's limb by what the footprint spans across it; q and e in the space where the head is part of a sphere.
+float insideLimb(Cap cap, vec2 q, vec3 e, vec2 dx, vec2 dy) {
+  vec3 o = vec3(q, -cap.centre_z);
+  if (o.x * dot(e, e) - e.x * dot(o, e) >= cap.tail_from * dot(e, e)) cap.tail_grows = 0.0;  // it is the head's
+  float behind = o.x - cap.tail_from;
+  vec3 mo = o - vec3(cap.tail_grows * behind, 0.0, 0.0), me = e - vec3(cap.tail_grows * e.x, 0.0, 0.0);
+  float a = dot(e, me), b = dot(mo, e);
+  float nearest_length = sqrt(max(dot(o, o) - cap.tail_grows * behind * behind - b * b / a, 1e-8));
+  vec3 nearest = mo - me * (b / a);
+  vec2 limb = vec2(nearest.x / cap.stretch, nearest.y) / nearest_length;
+  return (cap.radius - nearest_length) / max(length(vec2(dot(limb, dx), dot(limb, dy))), 1e-6);
 }
 
 // Share of a footprint (edges dx, dy) about a place on the glass in which the drop is seen: over its base's outline, from the dry side, or over
@@ -32,17 +41,11 @@ vec2 straighten(SeenDrop drop, vec2 place) {
 float coverage(Cap cap, vec2 place, vec3 d, vec2 dx, vec2 dy) {
   float inv = 1.0 / cap.stretch;
   vec2 q = vec2(place.x * inv, place.y);
-  float q_length = max(length(q), 1e-4);
-  vec2 outline = vec2(q.x * inv, q.y) / q_length;
+  float q_length = outlineAt(cap, q);
+  vec2 gradient = capGradient(cap, vec3(q, 0.0)).xy;
+  vec2 outline = vec2(gradient.x * inv, gradient.y) / max(q_length, 1e-4);
   float inside = d.z > 0.0 ? (1.0 - q_length) / max(length(vec2(dot(outline, dx), dot(outline, dy))), 1e-6) : -1e6;
-  if (meetCap(cap, vec3(place, 0.0), d).x * d.z > 0.0) {
-    vec3 o = vec3(q, -cap.centre_z);
-    vec3 e = vec3(d.x * inv, d.yz);
-    vec3 nearest = o - e * (dot(o, e) / dot(e, e));
-    float nearest_length = max(length(nearest), 1e-4);
-    vec2 limb = vec2(nearest.x * inv, nearest.y) / nearest_length;
-    inside = max(inside, (cap.radius - nearest_length) / max(length(vec2(dot(limb, dx), dot(limb, dy))), 1e-6));
-  }
+  if (meetCap(cap, vec3(place, 0.0), d).x * d.z > 0.0) inside = max(inside, insideLimb(cap, q, vec3(d.x * inv, d.yz), dx, dy));
   return clamp(inside + 0.5, 0.0, 1.0);
 }
 
@@ -56,7 +59,7 @@ void main() {
   SeenDrop drop = seen[which];
   mat3 vehicle_from_drop = mat3(drop.head_stretch.xyz, cross(drop.normal_reflections.xyz, drop.head_stretch.xyz), drop.normal_reflections.xyz);
   world_from_drop = mat3(frame.world_from_vehicle) * vehicle_from_drop;
-  Cap cap = Cap(drop.cap_outline.x, drop.cap_outline.y, drop.head_stretch.w);
+  Cap cap = capWithTail(drop.cap_outline.x, drop.cap_outline.y, drop.head_stretch.w, abs(drop.cap_outline.w));
   vec3 middle_from_eye = (drop.position_radius.xyz - frame.eye_in_vehicle.xyz) * vehicle_from_drop;
   vec3 to_glass = middle_from_eye + vec3(base * drop.position_radius.w, 0.0);
   vec3 d = normalize(to_glass);
@@ -69,13 +72,12 @@ void main() {
   vec2 dy = dFdy(base);
   int samples = int(drop.beside_phase.w);
   float count = float(samples);
-  vec2 narrow = vec2(1.0, 1.0 / narrowing(drop, base.x));  // what a pixel spans where the outline is an ellipse
   float cover = 0.0;
   vec2 middle = vec2(0.0);  // of the covered part: there the pixel's one ray goes
   for (int a = 0; a < samples * samples; ++a) {
     vec2 offset = (vec2(a % samples, a / samples) + 0.5) / count - 0.5;
     vec2 place = straighten(drop, base + dx * offset.x + dy * offset.y);
-    float share = coverage(cap, place, d, dx * narrow / count, dy * narrow / count);
+    float share = coverage(cap, place, d, dx / count, dy / count);
     cover += share;
     middle += share * place;
   }

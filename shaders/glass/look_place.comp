@@ -42,18 +42,22 @@ Place placeOf(GlassDropRecord drop) {
 }
 
 // Drops on wettable glass keep the ragged outline in which they met others; small ones and those on coated glass are round.
+// Those that run have drawn it in.
 float irregularityOf(GlassDropRecord drop) {
   if (drop.seed == 0u) return 0.0;
   float contact_angle_rad = 2.0 * atan(drop.height_m / drop.base_radius_m); // of a round cap as high over a base of this area
-  return smoothstep(radians(85.0), radians(40.0), contact_angle_rad) * smoothstep(0.5e-3, 2.0e-3, drop.base_radius_m);
+  return (1.0 - min(abs(drop.corner), 1.0)) * smoothstep(radians(85.0), radians(40.0), contact_angle_rad) * smoothstep(0.5e-3, 2.0e-3, drop.base_radius_m);
 }
 
-// How far the cap's shadow on the glass, cast along the view ray, reaches along (1, slope) from the middle, in the space where the base is a
-// circle of radius 1. A cap's support function; the part of the sphere below the glass is left out.
-float reach(Cap cap, float slope) {
-  float s = inversesqrt(1.0 + slope * slope);
-  return cap.centre_z + cap.radius * slope * s > 0.0 ? max(1.0, cap.centre_z * slope + cap.radius / s) : 1.0;
+// How far the cap's shadow on the glass, cast along the view ray, reaches along (1, slope), the base reaching so far there: both where the head is
+// a circle of radius 1. A cap's support function; the part of the sphere below the glass is left out.
+float reach(Cap cap, float base, float slope) {
+  float s = inversesqrt(base * base + slope * slope);
+  return cap.centre_z + cap.radius * slope * s > 0.0 ? max(base, cap.centre_z * slope + cap.radius / s) : base;
 }
+
+// How far the base reaches along a unit vector; a tail is narrower than half an ellipse.
+float baseReach(Cap cap, vec2 along) { return length(vec2(along.x < 0.0 ? along.x * cap.tail : along.x, along.y)); }
 
 // Whether a sphere about a point may be in the picture.
 bool inSight(vec4 clip, float radius_m) {
@@ -97,16 +101,23 @@ void main() {
   if (k >= uint(frame.drop_count)) return;
   GlassDropRecord drop = drops[k];
   Place place = placeOf(drop);
-  vec3 from_eye = place.position_m - frame.eye_in_vehicle.xyz;
-  vec4 eye_position = frame.eye_from_vehicle * vec4(place.position_m, 1.0);
-  float pixel_m = max(-eye_position.z, 1e-3) / frame.pixels_per_rad;
+  float pixel_m = max(-(frame.eye_from_vehicle * vec4(place.position_m, 1.0)).z, 1e-3) / frame.pixels_per_rad;
 
-  // A drop narrower than a pixel is drawn a pixel wide and as much paler.
-  float stretch = max(drop.elongation, 1.0);
-  float across_m = drop.base_radius_m * inversesqrt(stretch);
+  // A drop narrower than a pixel is drawn a pixel wide and as much paler. A small one shows no tail.
+  float elongation = max(drop.elongation, 1.0);
+  float across_m = drop.base_radius_m * inversesqrt(elongation);
+  bool small = max(across_m, 0.5 * pixel_m) * sqrt(elongation) < kSmall_px * pixel_m;  // of a circle of the base's area
+  Cap cap = capOfDrop(drop.height_m / across_m, elongation, small ? 0.0 : abs(drop.corner));
+  across_m *= inversesqrt(tailedArea(cap.tail));
+  float stretch = cap.stretch;
   float radius_m = max(across_m, 0.5 * pixel_m);
   float weight = across_m / radius_m;
-  Cap cap = capOf(2.0 * atan(drop.height_m / across_m), stretch);
+
+  // A drop's place is the middle of its length.
+  if (drop.corner < 0.0) place.head = -place.head;
+  place.position_m += place.head * (0.5 * (cap.tail - 1.0) * stretch * radius_m);
+  vec3 from_eye = place.position_m - frame.eye_in_vehicle.xyz;
+  vec4 eye_position = frame.eye_from_vehicle * vec4(place.position_m, 1.0);
 
   // The rectangle lies along the view ray's shadow on the glass; a grazing view would make it endless.
   vec3 view = vec3(dot(from_eye, place.head), dot(from_eye, cross(place.normal, place.head)), dot(from_eye, place.normal)) / length(from_eye);
@@ -116,12 +127,12 @@ void main() {
   float slope = shadow_length / steep;
   float irregularity = irregularityOf(drop);
   float pixel = pixel_m / radius_m;
-  float wider = 0.2 * irregularity + kMostCornered * abs(drop.corner);
+  float wider = 0.2 * irregularity * cap.tail;
   float pad = wider + pixel / steep;
-  bool visible = inSight(frame.clip_from_eye * eye_position, 2.0 * radius_m * max(stretch, slope));
+  bool visible = inSight(frame.clip_from_eye * eye_position, 2.0 * radius_m * max(stretch * cap.tail, slope));
 
   float radius_px = radius_m / pixel_m;
-  bool small = visible && radius_px * sqrt(stretch) < kSmall_px;  // of a circle of the base's area
+  small = small && visible;
   vec4 light_weight = vec4(0.0);
   if (small) {
     vec3 light = meanLight(cap, place, view, frame.clip_from_eye * eye_position);
@@ -137,9 +148,11 @@ void main() {
   o.light_weight = light_weight;
   o.normal_reflections = vec4(place.normal, min(float(frame.internal_reflections), radius_px < kPlain_px ? 3.0 : 6.0));
   // A small drop's third number: how much wider than its ellipse the triangle is for the faded edge.
-  o.cap_outline = vec4(cap.centre_z, cap.radius, small ? 1.0 + 0.5 * pixel / steep : irregularity, drop.corner);
-  o.reach = vec4(shadow_length > 1e-4 ? shadow / shadow_length : vec2(1.0, 0.0), reach(cap, slope) + pad, reach(cap, -slope) + pad);
-  o.beside_phase = vec4((cap.centre_z > 0.0 ? cap.radius : 1.0) + (small ? 0.0 : wider + pixel), float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
+  o.cap_outline = vec4(cap.centre_z, cap.radius, small ? 1.0 + 0.5 * pixel / steep : irregularity, drop.corner < 0.0 ? -cap.tail : cap.tail);
+  vec2 forth = shadow_length > 1e-4 ? shadow / shadow_length : vec2(1.0, 0.0), aside = vec2(-forth.y, forth.x);
+  o.reach = vec4(forth, reach(cap, baseReach(cap, forth), slope) + pad, reach(cap, baseReach(cap, -forth), -slope) + pad);
+  float sideways = max(baseReach(cap, aside), baseReach(cap, -aside)) * (cap.centre_z > 0.0 ? cap.radius : 1.0);
+  o.beside_phase = vec4(sideways + (small ? 0.0 : wider + pixel), float(drop.seed & 0xffffu) * (6.2831853 / 65536.0),
                         weight * weight, radius_m < frame.fine_radius_px * pixel_m ? 2.0 : 1.0);
   vec2 middle = vec2(0.0), along = vec2(1.0, 0.0), across = vec2(0.0, 1.0);
   if (small) {

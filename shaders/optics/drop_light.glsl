@@ -68,7 +68,7 @@ vec3 lightThrough(Cap cap, vec2 place, vec3 d, float footprint, int reflections)
   vec3 p = vec3(place, 0.0);
   vec3 meet = meetCap(cap, p, d);
   bool from_dry = d.z > 0.0;
-  float from_middle = length(vec2(place.x / cap.stretch, place.y));
+  float from_middle = outlineAt(cap, vec2(place.x / cap.stretch, place.y));
   bool through_base = from_dry && from_middle < 1.0;
   bool on_cap = !through_base && meet.x * d.z > 0.0 && meet.z > 0.0;
   vec3 normal = vec3(0.0, 0.0, -1.0);

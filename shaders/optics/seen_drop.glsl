@@ -3,10 +3,10 @@
 #define RG_OPTICS_SEEN_DROP_GLSL
 
 struct SeenDrop {
-  vec4 position_radius;  // vehicle frame, m; w: half the base's width as drawn, m
-  vec4 head_stretch;     // unit, vehicle frame: towards the drop's head; w: length by width of the base
+  vec4 position_radius;  // vehicle frame, m: of the head's circle; w: half the base's width as drawn, m
+  vec4 head_stretch;     // unit, vehicle frame: towards the drop's head; w: length by width of the base, or of its head if it has a tail
   vec4 normal_reflections;  // unit, out of the glass; w: how many internal reflections to follow
-  vec4 cap_outline;      // the cap's centre and radius in base radii; irregularity; corner
+  vec4 cap_outline;      // the cap's centre and radius in base radii; irregularity; its tail (Cap), < 0 if the record's heading leads there
   vec4 reach;            // the rectangle to be drawn, where the base is a circle of radius 1: unit vector forth, how far ahead and behind
   vec4 beside_phase;     // how far to both sides; phase of the outline; weight; samples along a pixel
   vec4 light_weight;     // of a small drop: its mean light; weight, negative for an eye outside

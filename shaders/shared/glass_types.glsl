@@ -19,7 +19,7 @@ struct GlassDropRecord {
   float base_radius_m;     // of the circle of the base's area, real metres
   float height_m;          // of the cap of this base and volume: a spherical one as wide, stretched along the heading
   float elongation;        // length : width of the base, >= 1
-  float corner;            // 0: an ellipse .. 1: the end that its heading leaves is a corner, see cornered(); < 0: the other end is
+  float corner;            // 0: an ellipse .. 1: a round head and, at the end that its heading leaves, a tail; < 0: at the other end. See capOfDrop()
   uint seed;               // for an outline that is its own
   uint unused;             // arrays' strides are whole vec2
 };

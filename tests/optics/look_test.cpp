@@ -77,6 +77,42 @@ TEST_F(Look, inAUniformWorldWaterIsInvisible) {
   EXPECT_LT(greatestDifference(draw(gl, look, scene, {&pane.pane, 1}), draw(gl, look, scene, {})), 0.025f);
 }
 
+// Seen face on, to its left, its right, and from both signs of its corner.
+TEST_F(Look, oneThatRunsIsBroadestAheadAndAsLargeAsItsBase) {
+  constexpr double kRadius_m = 0.03;
+  FlatPane pane(gl, glm::half_pi<double>(), 0.8, 64);
+  const gl::TextureCube cube = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(1.0f); });
+  Scene scene = inside({320, 180});
+  scene.light.environment_cube = cube.name();
+  for (const float ahead : {1.0f, -1.0f}) {
+    for (const float corner : {1.0f, 0.5f, -1.0f}) {
+      GlassDropRecord drop = pane.cap(0.0, 0.0, kRadius_m, glm::radians(40.0));
+      drop.elongation = 1.5f;
+      drop.corner = corner;
+      drop.heading = {corner < 0.0f ? -ahead : ahead, 0.0f};
+      pane.putDrops({&drop, 1});
+      const Picture seen = draw(gl, look, scene, {&pane.pane, 1});
+      int first = 320, last = -1, area = 0;
+      double balance = 0.0;  // about the picture's middle, where the record's place is
+      std::vector<int> wide(320, 0);
+      for (int x = 0; x < 320; ++x) {
+        for (int y = 0; y < 180; ++y) wide[static_cast<size_t>(x)] += seen.at(x, y).x > 0.5f ? 1 : 0;
+        if (wide[static_cast<size_t>(x)] == 0) continue;
+        first = std::min(first, x), last = x;
+        area += wide[static_cast<size_t>(x)];
+        balance += (x + 0.5 - 160.0) * wide[static_cast<size_t>(x)];
+      }
+      const double px_per_m = 160.0 / std::tan(0.5 * kFov) / 0.65;
+      EXPECT_NEAR(area / (glm::pi<double>() * std::pow(kRadius_m * px_per_m, 2.0)), 1.0, 0.03);
+      EXPECT_NEAR(0.5 * (first + last + 1), 160.0, 1.0);
+      EXPECT_GT(balance / area * static_cast<double>(ahead),
+                0.03 * static_cast<double>(std::abs(corner)) * (last - first));
+      const auto broadest = std::max_element(wide.begin(), wide.end()) - wide.begin();
+      EXPECT_GT(static_cast<float>(broadest - 160) * ahead, 0.0f);
+    }
+  }
+}
+
 TEST_F(Look, aCraterBendsTheViewWhereThereIsFilmAndNowhereElse) {
   FlatPane pane(gl, kRake, 0.8, 256);
   Scene scene = inside({640, 360});

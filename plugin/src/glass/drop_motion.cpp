@@ -181,11 +181,12 @@ bool Drops::reshape(int slot, glm::dvec2 along, double force_n, double speed_mps
   const double radius_m = static_cast<double>(drop.base_radius_m);
   const double longer = static_cast<double>(drop.elongation) - 1.0;
   const double at_rest = lengthAtRest(force_n, cubicMetres(drop.volume_pl), radius_m);
-  const double with_corner = lengthWithCorner(speed_mps, receding_mps_);
+  const double tail = tailsEnd(speed_mps, receding_mps_), with_tail = 0.5 * (1.0 + tail);
   const glm::dvec2 heading(drop.heading);
-  double wanted = std::max(at_rest, with_corner) - 1.0;
+  double wanted = std::max(at_rest, with_tail) - 1.0;
   // A tail that has become the head, as the wind turned, goes by way of a round one.
-  const double corner = std::copysign(with_corner / (1.0 + wanted), glm::dot(heading, along));
+  const double cornered = tail > 1.0 ? 0.5 * (tail - 1.0) / wanted : 0.0;  // see shared::capOfDrop
+  const double corner = std::copysign(cornered, glm::dot(heading, along));
   if (drop.pose != Pose::moving && wanted < longer) {
     const double pinned =
         longestPinned(static_cast<double>(drop.height_m), radius_m, tan_half_receding_, tan_half_advancing_);

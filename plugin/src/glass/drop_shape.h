@@ -40,11 +40,11 @@ inline double longestPinned(double height_m, double base_radius_m, double tan_ha
 
 // Beyond the receding line's speed the tail is a corner, so oblique that its sides recede at that speed: sin
 // phi = U_c / U, phi half its angle; down to 30 degrees, when pearls leave it (Podgorski, Flesselles & Limat
-// 2001). The drawn outline has that corner where length over width is sqrt(2) / tan phi (shared::cornered).
+// 2001). Sides so oblique leave a round head and meet 1 / sin phi of its radii behind its middle: there the
+// tail ends. 1: none.
 inline constexpr double kPearling = 2.0;  // 1 / sin 30 degrees
-inline double lengthWithCorner(double speed_mps, double receding_mps) {
-  const double beyond = std::min(speed_mps / receding_mps, kPearling);
-  return beyond > 1.0 ? std::sqrt(2.0 * (beyond * beyond - 1.0)) : 0.0;
+inline double tailsEnd(double speed_mps, double receding_mps) {
+  return std::clamp(speed_mps / receding_mps, 1.0, kPearling);
 }
 
 // Height of a cap of this volume whose base has the area of a circle of this radius and is so long: that of a

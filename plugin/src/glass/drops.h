@@ -33,7 +33,7 @@ struct alignas(32) Drop {
   float base_radius_m = 0.0f;  // of a circle of the base's area, real
   float elongation = 1.0f;     // length over width of the base, an ellipse; see drop_shape.h
   int32_t cell = 0;            // of the neighbour grid, that it is in
-  float corner = 0.0f;         // at the end its heading leaves, see shared::cornered; < 0: at the other
+  float corner = 0.0f;         // of its tail, at the end its heading leaves; < 0: at the other
 
   int64_t volume_pl = 0;          // 0: the slot is free
   glm::vec2 heading{1.0f, 0.0f};  // along the base
