@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace host {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr std::size_t kLampsPerDraw = 16;
 constexpr float kDepthFirst_m = 40.0F;  // beyond, parts are small and hide little of each other
 constexpr std::size_t kGridsPerDraw = 2;
+constexpr std::size_t kAirShelters = 6;  // as in air.glsl
 
 constexpr std::array<std::pair<unsigned, const char*>, 11> kNames = {{{kBaseMap, "BASE_MAP"},
                                                                       {kRoughnessMap, "ROUGHNESS_MAP"},
@@ -22,12 +24,40 @@ constexpr std::array<std::pair<unsigned, const char*>, 11> kNames = {{{kBaseMap,
                                                                       {kMirror, "MIRROR"},
                                                                       {kCarAbove, "CAR_ABOVE"}}};
 
-bool overlaps(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) {
-  const glm::vec3 middle(placed.box_from_world * glm::dvec4(glm::dvec3(item.middle) + eye_m, 1.0));
-  const glm::mat3 m{glm::dmat3(placed.box_from_world)};
+/// To 0 .. 1 in its box from what is relative to the eye.
+glm::dmat4 boxFromRel(const PlacedGrid& placed, glm::dvec3 eye_m) {
+  glm::dmat4 box_from_rel = placed.box_from_world;
+  box_from_rel[3] = box_from_rel * glm::dvec4(eye_m, 1.0);
+  return box_from_rel;
+}
+
+/// An item's bounds in a shelter's box.
+struct Bounds {
+  glm::vec3 low, high;
+};
+Bounds boundsIn(const glm::dmat4& box_from_rel, const DrawItem& item) {
+  const glm::vec3 middle(box_from_rel * glm::dvec4(item.middle, 1.0));
+  const glm::mat3 m{glm::dmat3(box_from_rel)};
   const glm::vec3 half =
       glm::abs(m[0]) * item.half.x + glm::abs(m[1]) * item.half.y + glm::abs(m[2]) * item.half.z;
-  return glm::all(glm::lessThan(glm::abs(middle - 0.5F), half + 0.5F));
+  return {middle - half, middle + half};
+}
+
+bool meetsBox(const Bounds& bounds) {
+  return glm::all(glm::lessThan(bounds.low, glm::vec3(1.0F))) &&
+         glm::all(glm::greaterThan(bounds.high, glm::vec3(0.0F)));
+}
+
+bool overlaps(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) {
+  return meetsBox(boundsIn(boxFromRel(placed, eye_m), item));
+}
+
+/// Whether the way from the eye to some part of it may lead through.
+bool liesOnTheWay(const PlacedGrid& placed, const DrawItem& item, glm::dvec3 eye_m) {
+  const glm::dmat4 box_from_rel = boxFromRel(placed, eye_m);
+  const glm::vec3 eye(box_from_rel[3]);
+  const auto [low, high] = boundsIn(box_from_rel, item);
+  return meetsBox({glm::min(low, eye), glm::max(high, eye)});
 }
 
 }  // namespace
@@ -47,9 +77,9 @@ const Program& Painter::program(unsigned features) {
     for (const auto& [feature, name] : kNames) {
       if (features & feature) defines.emplace_back(name);
     }
-    found =
-        std::make_unique<Program>(gl_, std::initializer_list<const char*>{"frame.glsl", "scene.vert"},
-                                  std::initializer_list<const char*>{"frame.glsl", "scene.frag"}, defines);
+    found = std::make_unique<Program>(
+        gl_, std::initializer_list<const char*>{"frame.glsl", "scene.vert"},
+        std::initializer_list<const char*>{"frame.glsl", "air.glsl", "scene.frag"}, defines);
   }
   return *found;
 }
@@ -108,6 +138,35 @@ Painter::Grids Painter::gridsOf(const DrawItem& item) const {
   return found;
 }
 
+/// Shelters that the eye sees an item through. Others' cabins are too small to count.
+Painter::Grids Painter::airOf(const DrawItem& item) const {
+  Grids found;
+  for (const PlacedGrid& placed : grids_) {
+    const bool counts = placed.owner == item.instance || placed.owner->scene->frame == SceneFrame::Road;
+    if (counts && found.size() < kAirShelters && liesOnTheWay(placed, item, eye_m_)) found.push_back(&placed);
+  }
+  return found;
+}
+
+void Painter::setAir(const Program& program, const Grids& air) const {
+  std::array<glm::mat4, kAirShelters> from_rel{};
+  std::array<float, kAirShelters> lit{};
+  for (std::size_t i = 0; i < air.size(); ++i) {
+    const SkyGrid& grid = air[i]->grid->grid;
+    // Without the borders, in which the box fades into the open.
+    const glm::vec3 within = 1.0F / (1.0F - 2.0F * grid.border);
+    from_rel[i] = glm::scale(glm::mat4(1.0F), within) * glm::translate(glm::mat4(1.0F), -grid.border) *
+                  glm::mat4(boxFromRel(*air[i], eye_m_));
+    lit[i] = grid.lit;
+  }
+  const auto count = static_cast<GLsizei>(air.size());
+  program.set("u_air_count", count);
+  if (count == 0) return;
+  gl_.ProgramUniformMatrix4fv(program.name(), program.location("u_air_from_rel"), count, GL_FALSE,
+                              &from_rel[0][0][0]);
+  gl_.ProgramUniform1fv(program.name(), program.location("u_air_lit"), count, lit.data());
+}
+
 void Painter::setMaterial(const Program& program, const DrawItem& item, unsigned features) const {
   const GpuMaterial& material = item.material();
   const int role = item.draw->role;
@@ -150,9 +209,7 @@ void Painter::setGrids(const Program& program, const Grids& grids) const {
   std::array<glm::vec4, kGridsPerDraw> shape{};
   std::array<float, kGridsPerDraw> dry{};
   for (std::size_t i = 0; i < grids.size(); ++i) {
-    glm::dmat4 box_from_rel = grids[i]->box_from_world;
-    box_from_rel[3] = box_from_rel * glm::dvec4(eye_m_, 1.0);
-    grid_from_rel[i] = glm::mat4(box_from_rel);
+    grid_from_rel[i] = glm::mat4(boxFromRel(*grids[i], eye_m_));
     shape[i] = glm::vec4(grids[i]->grid->grid.border, grids[i]->grid->grid.probe_step_m);
     dry[i] = 1.0F;
     gl_.BindTextureUnit(6 + static_cast<GLuint>(i), grids[i]->grid->texture);
@@ -165,22 +222,22 @@ void Painter::setGrids(const Program& program, const Grids& grids) const {
   program.set("u_grid_count", count);
 }
 
-/// How many of the first items can be drawn by one call: the same body and material, without lamps and
-/// shelters of their own.
-std::size_t Painter::alike(std::span<const DrawItem> items) const {
+/// How many of the first items can be drawn by one call: the same body and material, seen through the same
+/// `air`, without lamps and shelters of their own.
+std::size_t Painter::alike(std::span<const DrawItem> items, const Grids& air) const {
   const DrawItem& first = items.front();
   std::size_t count = 1;
   while (count < items.size()) {
     const DrawItem& next = items[count];
     const bool same = next.instance == first.instance && next.draw->body == first.draw->body &&
                       next.draw->material == first.draw->material && next.draw->role == first.draw->role;
-    if (!same || !gridsOf(next).empty() || !lampsOf(next).empty()) break;
+    if (!same || !gridsOf(next).empty() || !lampsOf(next).empty() || airOf(next) != air) break;
     ++count;
   }
   return count;
 }
 
-void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& lamps) {
+void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& lamps, const Grids& air) {
   const unsigned features = featuresOf(item, !grids.empty());
   const Program& its = program(features);
   its.use();
@@ -192,6 +249,7 @@ void Painter::setState(const DrawItem& item, const Grids& grids, const Lamps& la
   its.set("u_rel_from_body", item.rel_from_body);
   setMaterial(its, item, features);
   setLamps(its, lamps);
+  setAir(its, air);
   if (!grids.empty()) setGrids(its, grids);
   gl_.BindVertexArray(item.instance->scene->vertex_array);
 }
@@ -229,8 +287,9 @@ Painted Painter::paint(const DrawList& list) {
   while (!items.empty()) {
     const Grids grids = gridsOf(items.front());
     const Lamps lamps = lampsOf(items.front());
-    const std::size_t together = grids.empty() && lamps.empty() ? alike(items) : 1;
-    setState(items.front(), grids, lamps);
+    const Grids air = airOf(items.front());
+    const std::size_t together = grids.empty() && lamps.empty() ? alike(items, air) : 1;
+    setState(items.front(), grids, lamps, air);
     counts.clear();
     firsts.clear();
     for (const DrawItem& item : items.first(together)) {

@@ -58,8 +58,10 @@ class Painter {
   Lamps lampsOf(const DrawItem& item) const;
   bool underCar(const DrawItem& item) const;
   void paintDepth(const DrawList& list);
-  std::size_t alike(std::span<const DrawItem> items) const;
-  void setState(const DrawItem& item, const Grids& grids, const Lamps& lamps);
+  Grids airOf(const DrawItem& item) const;
+  void setAir(const Program& program, const Grids& air) const;
+  std::size_t alike(std::span<const DrawItem> items, const Grids& air) const;
+  void setState(const DrawItem& item, const Grids& grids, const Lamps& lamps, const Grids& air);
   void setMaterial(const Program& program, const DrawItem& item, unsigned features) const;
   void setLamps(const Program& program, const Lamps& lamps) const;
   void setGrids(const Program& program, const Grids& grids) const;

@@ -176,7 +176,7 @@ FrameBlock Renderer::Self::frameFor(const View& view, glm::ivec2 size_px, glm::d
   frame.haze = glm::vec4(environment.horizonRadiance(), static_cast<float>(extinction(sky)));
   frame.air = {static_cast<float>(sky.wetness), environment.lastMip(), environment.brightness(), kGlow};
   frame.eye = glm::vec4(glm::vec3(glm::mod(eye_m, 1024.0)), 0.0F);
-  frame.screen = glm::vec4(1.0F / glm::vec2(size_px), 0.0F, 0.0F);
+  frame.screen = glm::vec4(1.0F / glm::vec2(size_px), 0.0F, static_cast<float>(extinctionOfAir(sky)));
   if (nearest_car == nullptr) return frame;
   glm::dmat4 rel_from_car = nearest_car->worldFromHost();
   rel_from_car[3] -= glm::dvec4(eye_m, 0.0);

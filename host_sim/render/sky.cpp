@@ -57,8 +57,10 @@ double beam(double elevation_deg) {
 
 double cloudCover(const Sky& sky) { return std::clamp(allThatFalls_mm_h(sky) / 0.5, 0.0, 1.0); }
 
+double extinctionOfAir(const Sky& sky) { return 3.912 / std::max(sky.visibility_m, 1.0); }
+
 double extinction(const Sky& sky) {
-  return 3.912 / std::max(sky.visibility_m, 1.0) + 3.9e-3 * std::pow(std::max(sky.snow_mm_h, 0.0), 0.65);
+  return extinctionOfAir(sky) + 3.9e-3 * std::pow(std::max(sky.snow_mm_h, 0.0), 0.65);
 }
 
 glm::vec3 sunIrradiance(const Sky& sky) {

@@ -22,6 +22,8 @@ double cloudCover(const Sky& sky);
 /// factor of 3 to 10 that Rasmussen et al. (1999) found (coefficients unsourced). Hail is too sparse to
 /// count.
 double extinction(const Sky& sky);
+/// Of the air alone, as it is where no snow falls.
+double extinctionOfAir(const Sky& sky);
 /// Light from above at this height of the sun as a share of that at 35 degrees, down to the glow of lamps on
 /// clouds at night (Seidelmann 1992, after Janiczek & DeYoung 1987).
 double daylight(const Sky& sky);

@@ -59,6 +59,11 @@ glm::vec3 direction(int i) {
 constexpr float kLitOutside = 0.12F * 7.0F / 9.0F;
 constexpr float kLitInside = 0.006F;
 
+glm::vec3 cellMiddle(const SkyGrid& grid, const glm::mat4& scene_from_box, int i) {
+  const glm::vec3 at(i % grid.cells.x, i / grid.cells.x % grid.cells.y, i / (grid.cells.x * grid.cells.y));
+  return glm::vec3(scene_from_box * glm::vec4((at + 0.5F) / glm::vec3(grid.cells), 1.0F));
+}
+
 glm::vec4 lightAt(const RayTree& tree, glm::vec3 from, const Box& shelter) {
   glm::vec4 light(0.0F);
   for (int i = 0; i < kRays; ++i) {
@@ -69,6 +74,17 @@ glm::vec4 lightAt(const RayTree& tree, glm::vec3 from, const Box& shelter) {
     light += glm::vec4(radiance, 3.0F * radiance * to) / static_cast<float>(kRays);
   }
   return light;
+}
+
+/// Mean light by that in the open, of what lies in the shelter.
+float meanLight(const SkyGrid& grid, const glm::mat4& scene_from_box) {
+  float sum = 0.0F, whole = 0.0F;
+  for (std::size_t i = 0; i < grid.light.size(); ++i) {
+    const float share = grid.share(cellMiddle(grid, scene_from_box, static_cast<int>(i)));
+    sum += share * std::min(grid.light[i].x / kOpenSky.x, 1.0F);
+    whole += share;
+  }
+  return whole > 0.0F ? sum / whole : 1.0F;
 }
 
 }  // namespace
@@ -110,11 +126,9 @@ SkyGrid measureSky(const RayTree& tree, std::span<const glm::vec3> points_m, flo
   const glm::mat4 scene_from_box(glm::vec4(box.x * box.size.x, 0.0F), glm::vec4(box.y * box.size.y, 0.0F),
                                  glm::vec4(0.0F, 0.0F, box.size.z, 0.0F), glm::vec4(box.corner, 1.0F));
   grid.box_from_scene = glm::inverse(scene_from_box);
-  for (int i = 0; i < grid.cells.x * grid.cells.y * grid.cells.z; ++i) {
-    const glm::vec3 at(i % grid.cells.x, i / grid.cells.x % grid.cells.y, i / (grid.cells.x * grid.cells.y));
-    grid.light.push_back(lightAt(
-        tree, glm::vec3(scene_from_box * glm::vec4((at + 0.5F) / glm::vec3(grid.cells), 1.0F)), shelter));
-  }
+  for (int i = 0; i < grid.cells.x * grid.cells.y * grid.cells.z; ++i)
+    grid.light.push_back(lightAt(tree, cellMiddle(grid, scene_from_box, i), shelter));
+  grid.lit = meanLight(grid, scene_from_box);
   return grid;
 }
 

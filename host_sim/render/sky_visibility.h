@@ -23,6 +23,7 @@ struct SkyGrid {
   float probe_step_m =
       0.3F;  ///< surfaces ask that far before them, so that a wall does not take from behind it
   std::vector<glm::vec4> light;  ///< cells.x * y * z, x fastest
+  float lit = 1.0F;              ///< how bright the air in it is on the mean, by that in the open
 
   /// How far the point is inside: 0 outside, 1 within the borders.
   float share(glm::vec3 scene_m) const;

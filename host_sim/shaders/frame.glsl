@@ -6,11 +6,11 @@ layout(std140, binding = 0) uniform Frame {
   vec4 sh[9];          // irradiance / pi of the surroundings by normal
   vec4 to_sun;         // w: 1 where there is a shadow map
   vec4 sun;            // rgb irradiance
-  vec4 haze;           // rgb of the air far off, w extinction 1/m
+  vec4 haze;           // rgb of the air far off, w extinction in the open, 1/m
   vec4 air;            // x wetness, y reflections' last mip, z brightness of the environment cube, w glow of emissive 1
   vec4 eye;            // xyz of the eye in the world modulo 1024 m, for patterns
   vec4 plane;          // the wet ground's plane: n . p = w
-  vec4 screen;         // xy 1 / size in pixels, z 1 where there is a mirror picture
+  vec4 screen;         // xy 1 / size in pixels, z 1 where there is a mirror picture, w extinction where no snow falls, 1/m
   mat4 car_from_rel;   // of the car that shades the ground below it
   vec4 car;            // xy half length and width of its footprint, z middle of it along the car, w 1 where there is one
   vec4 lamp_place[kMaxLamps];      // xyz, w 1 / range^2

@@ -237,7 +237,5 @@ void main() {
 #else
   vec4 colour = vec4(diffuse * light + shine + glow, 1.0);
 #endif
-  float clear = exp(-frame.haze.w * distance_m);
-  float airlight = mix(1.0, clamp(3.0 * seen.x, 0.0, 1.0), shelter) * u_open;
-  out_colour = vec4(colour.rgb * clear + frame.haze.rgb * (airlight * (1.0 - clear) * colour.a), colour.a);
+  out_colour = veiled(colour, v_position);
 }
