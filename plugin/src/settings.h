@@ -14,8 +14,8 @@ struct Settings {
   double rain_reference_px = 1663.0;
   double rain_beyond = 1.0;
   double rain_near_bias = 1.0, rain_near_contrast = 0.4;
-  double rain_middle_bias = 1.0, rain_middle_contrast = 0.5;
-  double rain_far_bias = 1.0, rain_far_contrast = 0.5;
+  double rain_middle_bias = 1.0, rain_middle_contrast = 0.3;
+  double rain_far_bias = 1.0, rain_far_contrast = 0.15;
   double rain_haze_bias = 1.0;
   double splashes_gain = 3.0;
   double splashes_reach_m = 20.0;

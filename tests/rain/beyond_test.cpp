@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "rain/beyond_pattern.h"
 #include "rain/size_law.h"
@@ -181,6 +183,70 @@ TEST(RainPattern, ofTheProjectsOwnIsAlwaysTheSameAndUsesItsRange) {
   EXPECT_GT(a.mean, 0.2);               // enough steps of 1/255 for what is below the mean
   EXPECT_GT(a.greatest / a.mean, 2.0);  // streaks stand out
   EXPECT_LT(a.greatest / a.mean, 3.3);  // and can be drawn in a downpour
+}
+
+// How alike the pattern is to itself so many rows farther along the fall: 1 the same, 0 by chance.
+double alikeAlong(const RainPattern& pattern, uint32_t rows) {
+  double both = 0.0, square = 0.0;
+  for (uint32_t y = 0; y < pattern.height_px; ++y) {
+    for (uint32_t x = 0; x < pattern.width_px; ++x) {
+      const auto rain = [&](uint32_t row) {
+        return pattern.rgba[4 * (row % pattern.height_px * pattern.width_px + x) + 3] / 255.0 - pattern.mean;
+      };
+      both += rain(y) * rain(y + rows);
+      square += rain(y) * rain(y);
+    }
+  }
+  return both / square;
+}
+
+// A row of a layer's pattern as long as it is where its rain falls: a streak of so many metres passes the eye
+// as the pattern does.
+double rowLength_m(const RainPattern& pattern, glm::length_t layer) {
+  Scene scene = sceneWithView(20.0);
+  Beyond beyond;
+  const BeyondPicture picture = tickTo(scene, beyond, 10);
+  const auto now = blockOf(picture, scene.views[0], tickTimeNs(10)),
+             then = blockOf(picture, scene.views[0], tickTimeNs(11));
+  const double turns = turned(now.scroll[layer], then.scroll[layer]) * static_cast<double>(now.repeats.w);
+  return SizeLaw::of(20.0).meanSpeedSeen_mps() * kTickSeconds / turns / pattern.height_px;
+}
+
+TEST(RainPattern, streaksAreAsLongAsDropsFallInAnExposureInEveryLayer) {
+  const RainPattern pattern = generatePattern();
+  uint32_t half = 0;
+  while (alikeAlong(pattern, half) > 0.5) ++half;
+  // What is alike by half a streak's length off is 0.4 of one long; 0.11 m in 1/60 s.
+  for (glm::length_t layer = 0; layer < 3; ++layer) {
+    EXPECT_GT(half * rowLength_m(pattern, layer), 0.4 * 0.11 / 2.0) << layer;
+    EXPECT_LT(half * rowLength_m(pattern, layer), 0.4 * 0.11 * 1.5) << layer;
+  }
+}
+
+// Power of the waves of so many turns across and along in it.
+double power(const RainPattern& pattern, double across, double along) {
+  std::complex<double> sum = 0.0;
+  for (uint32_t y = 0; y < pattern.height_px; ++y) {
+    for (uint32_t x = 0; x < pattern.width_px; ++x) {
+      const double turns = across * x / pattern.width_px + along * y / pattern.height_px;
+      sum += std::polar<double>(pattern.rgba[4 * (y * pattern.width_px + x) + 3],
+                                2.0 * glm::pi<double>() * turns);
+    }
+  }
+  return std::norm(sum);
+}
+
+// Broad waves of what chance alone has strewn are all of like power, exponentially spread about its mean.
+TEST(RainPattern, strewsItsStreaksByChanceWithoutBroaderBands) {
+  const RainPattern pattern = generatePattern();
+  std::vector<double> powers;
+  for (int across = 1; across <= 6; ++across) {
+    for (int along = -6; along <= 6; ++along) powers.push_back(power(pattern, across, along));
+  }
+  double mean_power = 0.0;
+  for (const double p : powers) mean_power += p / static_cast<double>(powers.size());
+  // Of 78 waves chance has one so strong once in 40 times.
+  EXPECT_LT(std::ranges::max(powers), 8.0 * mean_power);
 }
 
 TEST(RainPattern, isRefusedWhenOfNoUsableSizeOrWithoutRain) {

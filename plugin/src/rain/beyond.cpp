@@ -12,10 +12,11 @@ namespace {
 
 using glm::dvec3, glm::vec4;
 
-// The pattern round the axis, and the distance of the rain a layer stands for. By eye (unsourced): a streak
-// is a few pixels wide in the near layer, and finer with distance, as far as it still shows.
-constexpr std::array<double, 3> kRepeats{24.0, 36.0, 52.0};
+// The distance of the rain a layer stands for (unsourced), and the pattern round the axis, so often that it
+// is 2.4 m wide there: what is a streak near by is ever finer with distance, and an even haze where a pixel
+// holds many.
 constexpr std::array<double, 3> kDistance_m{9.0, 25.0, 62.0};
+constexpr std::array<double, 3> kRepeats{24.0, 67.0, 165.0};
 constexpr double kPlainStreak_m = 0.11;  // the pattern's streaks as they are: 6.5 m/s for 1/60 s
 constexpr double kLongest = 4.0;         // and drawn out so many times at most
 

@@ -20,7 +20,7 @@ inline constexpr double kBeyondRange_m = 400.0;  // volumes farther off than thi
 struct BeyondLook {
   double share = 1.0;  // 0: nothing is drawn .. 1: all
   glm::dvec4 bias{1.0};
-  glm::dvec3 contrast{0.4, 0.5, 0.5};
+  glm::dvec3 contrast{0.4, 0.3, 0.15};
 };
 
 // What passes from the ticking thread to the GL thread.

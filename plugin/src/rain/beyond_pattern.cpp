@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace rg::rain {
 namespace {
 
 constexpr int kSize_px = 256;
-// All by eye (unsourced): streaks so dense that they just stand out from an even half, in sheets as wind
-// draws them.
-constexpr int kStreaks = 420;
+// All by eye (unsourced), but for streaks' length: so dense that they just stand out from an even half. Each
+// lies where chance has put it, without broader bands: those come again with every turn of the pattern, and
+// make combed hair of rain.
+constexpr int kStreaks = 2000;
 constexpr double kEven = 0.4;      // of the mean, everywhere
-constexpr double kSheets = 0.35;   // swing of the sheets about it
 constexpr double kGreatest = 3.0;  // times the mean
 constexpr double kRelief = 2.0;    // slope of normals at a streak's flank
 
@@ -35,13 +34,6 @@ void addStreak(double x, double y, double length_px, double width_px, double str
       rain[index(static_cast<int>(x) + i, static_cast<int>(y) + j)] += strength * std::exp(-u * u) * along;
     }
   }
-}
-
-// Broad bands that lean along the fall, -1 .. 1.
-double sheet(int x, int y) {
-  const double turn = 2.0 * std::numbers::pi / kSize_px;
-  return 0.4 * std::sin(turn * (2 * x + y)) + 0.35 * std::sin(turn * (5 * x - y) + 1.0) +
-         0.25 * std::sin(turn * (3 * x + 2 * y) + 2.5);
 }
 
 uint8_t byteOf(double share) {
@@ -81,16 +73,17 @@ RainPattern generatePattern() {
   std::mt19937 random(1);  // its numbers are the same everywhere (C++20, [rand.eng.mers])
   std::vector<double> rain(size_t{kSize_px} * kSize_px, 0.0);
   for (int i = 0; i < kStreaks; ++i) {
-    // Few are near and long, many far and short.
+    // Few are near and long, many far and short: 11 on the mean, as drops fall in an exposure
+    // (kPlainStreak_m).
     const double size = std::pow(unit(random), 2.0);
     const double x = unit(random) * kSize_px, y = unit(random) * kSize_px;
-    addStreak(x, y, 24.0 + 60.0 * size, 0.7 + 0.6 * size, 0.3 + 0.7 * unit(random), rain);
+    addStreak(x, y, 6.0 + 15.0 * size, 0.6 + 0.5 * size, 0.3 + 0.7 * unit(random), rain);
   }
   const double mean = meanOf(rain);
   for (int y = 0; y < kSize_px; ++y) {
     for (int x = 0; x < kSize_px; ++x) {
       double& r = rain[index(x, y)];
-      r = std::min((kEven + (1.0 - kEven) * r / mean) * (1.0 + kSheets * sheet(x, y)), kGreatest);
+      r = std::min(kEven + (1.0 - kEven) * r / mean, kGreatest);
     }
   }
   std::vector<uint8_t> rgba;
