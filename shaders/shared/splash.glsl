@@ -232,64 +232,73 @@ struct SplashDrawn {
   float high;
   float droplets;  // what of a pixel within their band they cover, of one side of the circle
 };
-RG_CONST float kSplashWithin = 0.6f;  // share of its droplets that fly within the circle, not on it (by eye)
-// One that counts often is spread until it hides no more than this of a pixel, as those would that it stands for (by eye).
-RG_CONST float kSplashDensest = 0.6f;
+// The same at another size: it covers as much in all.
+RG_FN SplashDrawn splashScaled(RG_IN(SplashDrawn) drawn, float by) {
+  SplashDrawn scaled;
+  scaled.radius = drawn.radius * by;
+  scaled.sine = drawn.sine;
+  scaled.wall_height = drawn.wall_height * by;
+  scaled.wall = drawn.wall / (by * by);
+  scaled.low = drawn.low * by;
+  scaled.high = drawn.high * by;
+  scaled.droplets = drawn.droplets / (by * by);
+  return scaled;
+}
+
+// One that counts often is spread until it hides no more than this of the pixels about it, as those would that it stands for (by eye).
+RG_CONST float kSplashDensest = 0.16f;
 RG_FN SplashDrawn splashDrawn(RG_IN(SplashShape) shape, float px_per_m, float sine, float times) {
   SplashDrawn drawn;
-  float radius = shape.radius_m * px_per_m, upright = px_per_m * sqrt(max(0.0f, 1.0f - sine * sine));
+  float upright = px_per_m * sqrt(max(0.0f, 1.0f - sine * sine));
+  drawn.radius = shape.radius_m * px_per_m;
   drawn.sine = sine;
   drawn.wall_height = shape.wall_m * upright;
+  drawn.wall = shape.wall * times;
   drawn.low = shape.low_m * upright;
-  drawn.high = max(shape.high_m * upright, drawn.low + 0.5f * kSplashWithin * sine * radius) + 1.0e-3f;
-  float covered = times * shape.droplets_m2 * px_per_m * px_per_m, high = drawn.high - drawn.low;
-  drawn.radius = max(radius, 0.5f * (covered / (kSplashDensest * (1.0f + high) * (1.0f + sine)) - 1.0f));
-  drawn.wall = shape.wall * times * radius / drawn.radius;
-  drawn.droplets = covered / (2.0f * 3.1415927f * drawn.radius * high);
-  return drawn;
+  drawn.high = max(shape.high_m * upright, drawn.low + 0.5f * sine * drawn.radius) + 1.0e-3f;
+  float covered = times * shape.droplets_m2 * px_per_m * px_per_m, wide = 2.0f * drawn.radius, high = drawn.high + sine * drawn.radius;
+  drawn.droplets = covered / (3.1415927f * wide * (drawn.high - drawn.low));
+  // (1 + wide by) (1 + high by) pixels.
+  float half_sum = 0.5f * (wide + high), product = wide * high, missing = covered / kSplashDensest - 1.0f;
+  float by = missing > 0.0f ? (sqrt(half_sum * half_sum + product * missing) - half_sum) / product : 1.0f;
+  return splashScaled(drawn, max(by, 1.0f));
 }
 
-// The same smaller, where there is no room for it: it covers as much in all.
-RG_FN SplashDrawn splashShrunk(RG_IN(SplashDrawn) drawn, float by) {
-  SplashDrawn shrunk;
-  shrunk.radius = drawn.radius * by;
-  shrunk.sine = drawn.sine;
-  shrunk.wall_height = drawn.wall_height * by;
-  shrunk.wall = drawn.wall / (by * by);
-  shrunk.low = drawn.low * by;
-  shrunk.high = drawn.high * by;
-  shrunk.droplets = drawn.droplets / (by * by);
-  return shrunk;
+// Of the droplets on one side of a disk, those between its left rim and where the angle about its middle has that sine: pi in all, ever fewer towards
+// the rim. The integral of 8/3 cos^4 of the angle.
+RG_FN float splashLeftOf(float sine, float angle) {
+  float twice = 2.0f * sine * sqrt(1.0f - sine * sine), cos_twice = 1.0f - 2.0f * sine * sine;
+  return angle + twice * (2.0f / 3.0f + cos_twice / 6.0f);
 }
 
-// Cosine and sine of 4 times (xy) and 8 times (zw) an angle.
-RG_FN vec4 splashTurns(float sine) {
-  vec2 twice = vec2(1.0f - 2.0f * sine * sine, 2.0f * sine * sqrt(1.0f - sine * sine));
-  vec2 turn4 = vec2(2.0f * twice.x * twice.x - 1.0f, 2.0f * twice.x * twice.y);
-  return vec4(turn4.x, turn4.y, 2.0f * turn4.x * turn4.x - 1.0f, 2.0f * turn4.x * turn4.y);
-}
-
-// What of a band of droplets lies in a pixel's row: they are fewer the higher, 1.5 (1 - height^2).
+// What of a band of droplets lies in a pixel's row: most at a third of its height, ever fewer towards its ends, 12 h (1 - h)^2.
+RG_FN float splashBelow(float h) { return h * h * (6.0f - 8.0f * h + 3.0f * h * h); }
 RG_FN float splashBand(float at, float pixel_half, float low, float high) {
-  float per = 1.0f / (high - low), from = clamp((at - pixel_half - low) * per, 0.0f, 1.0f), to = clamp((at + pixel_half - low) * per, 0.0f, 1.0f);
-  return (to - from) * (1.5f - 0.5f * (to * to + to * from + from * from));
+  float per = 1.0f / (high - low);
+  return splashBelow(clamp((at + pixel_half - low) * per, 0.0f, 1.0f)) - splashBelow(clamp((at - pixel_half - low) * per, 0.0f, 1.0f));
 }
 
 // What it covers of a pixel at `at` from its foot, px, x across and y up. The picture's sum is the same at any size and place: the circle by its arc in
-// a pixel's column, and what stands on it by its height in the pixel's row. Droplets fly in part within the circle, denser at 8 places about it and
-// up higher at 4, as they blur while a picture is exposed: a puff, not dots.
-RG_FN float splashCover(vec2 at, float pixel_half, RG_IN(SplashDrawn) s, vec2 phase) {
+// a pixel's column, and what stands on it by its height in the pixel's row. Droplets fly within the circle, each side's as far off as half of them, and
+// blur while a picture is exposed: a puff without edges.
+RG_FN float splashCover(vec2 at, float pixel_half, RG_IN(SplashDrawn) s) {
   float from = clamp((at.x - pixel_half) / s.radius, -1.0f, 1.0f), to = clamp((at.x + pixel_half) / s.radius, -1.0f, 1.0f);
-  float arc = asin(to) - asin(from), middle = clamp(at.x / s.radius, -1.0f, 1.0f), away = s.radius * s.sine * sqrt(1.0f - middle * middle);
+  float angle_from = asin(from), angle_to = asin(to), arc = angle_to - angle_from;
+  float middle = clamp(at.x / s.radius, -1.0f, 1.0f), away = s.radius * s.sine * sqrt(1.0f - middle * middle);
   float walls = splashWithin(at.y + away, pixel_half, 0.0f, s.wall_height) + splashWithin(at.y - away, pixel_half, 0.0f, s.wall_height);
-  vec4 turns_from = splashTurns(from), turns_to = splashTurns(to), denser = turns_to - turns_from, mean = 0.5f * (turns_from + turns_to);
-  float even = mix(arc, 3.1415927f * (rainDiskLeftOf(to) - rainDiskLeftOf(from)), kSplashWithin), lumps = (1.0f - kSplashWithin) / 8.0f;
-  float front = even + lumps * (denser.w * phase.x + denser.z * phase.y), back = even + lumps * (denser.w * phase.y - denser.z * phase.x);
-  float higher = 0.35f * (s.high - s.low), within = (1.0f - 0.5f * kSplashWithin) * away;
-  float droplets = front * splashBand(at.y + within - higher * (mean.x * phase.x + mean.y * phase.y), pixel_half, s.low, s.high) +
-                   back * splashBand(at.y - within - higher * (mean.x * phase.y - mean.y * phase.x), pixel_half, s.low, s.high);
+  float strewn = splashLeftOf(to, angle_to) - splashLeftOf(from, angle_from);
+  float droplets = strewn * (splashBand(at.y + 0.5f * away, pixel_half, s.low, s.high) + splashBand(at.y - 0.5f * away, pixel_half, s.low, s.high));
   return s.radius * (s.wall * arc * walls + s.droplets * (s.high - s.low) * droplets) / (4.0f * pixel_half * pixel_half);
 }
+
+// Droplets are few: where a splash is many pixels wide, by chance one of those shows more of them and another none, 1 on the mean (by eye). `at`: as
+// above, but to the picture's right where the picture stands on its head.
+RG_FN float splashSpeck(vec2 at, RG_IN(SplashDrawn) s, float seed) {
+  ivec2 pixel = ivec2(floor(at)) + 512;
+  float u = unitFloat(pcg(uint(pixel.x) | uint(pixel.y) << 10u | uint(seed) << 20u));
+  return mix(1.0f, 0.4f + 2.4f * u * u * u, clamp(0.3f * s.radius - 0.3f, 0.0f, 1.0f));
+}
+
 // The sum of that over all pixels.
 RG_FN float splashCoverSum(RG_IN(SplashDrawn) s) {
   return 2.0f * 3.1415927f * s.radius * (s.wall * s.wall_height + s.droplets * (s.high - s.low));
@@ -314,7 +323,7 @@ struct SplashPoint {
   vec4 place;  // xyz: of its middle, in clip space; w: its side, px
   vec4 a;      // xy: the foot, px on the target; halves: z up there; w: the depth that what hides it lies before, m
   vec4 b;      // px: radius, height of the wall, and of the droplets' band from and to
-  vec4 c;      // what of a pixel the droplets cover (w); halves: x red and green, y blue and the elevation's sine, z what the wall covers and the droplets' phase
+  vec4 c;      // what of a pixel the droplets cover (w); halves: x red and green, y blue and the elevation's sine, z what the wall covers and the splash's own number
 };
 RG_SIZE(SplashPoint, 64)
 

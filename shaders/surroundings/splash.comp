@@ -209,22 +209,22 @@ void put(uint at, Splash s, Seen seen) {
   vec2 foot_px = onScreen(foot), up_px = onScreen(foot + vec3(0.0, 0.0, 0.01 * seen.depth)) - foot_px;
   vec2 up = length(up_px) > 1e-3 ? normalize(up_px) : vec2(0.0, 1.0);
   SplashDrawn d = splashDrawn(splashShape(s.diameter_m, s.age_s), look.focal.y / seen.depth, abs(foot.z) / length(foot), seen.times);
-  float pixel = rainPixelHalf(up), away = d.radius * d.sine, high = max(d.wall_height, d.high + 0.35 * (d.high - d.low));
+  float pixel = rainPixelHalf(up), away = d.radius * d.sine, high = max(d.wall_height, d.high);
   float half_px = max(d.radius, away + 0.5 * high);
   float shrunk = clamp((0.25 * most_px / pixel - pixel) / half_px, 0.01, 1.0);
-  d = splashShrunk(d, shrunk);
+  d = splashScaled(d, shrunk);
   half_px = shrunk * half_px + pixel;
   // Points are drawn where their middle is in the picture.
   vec2 free_px = foot_px + up * (0.5 * shrunk * high), rim_px = 0.5 * look.viewport.zw - 0.5;
   vec2 middle_px = clamp(free_px, -rim_px, rim_px), moved_px = abs(free_px - middle_px);
   float side_px = min(4.0 * pixel * half_px + 2.0 * max(moved_px.x, moved_px.y), most_px);
   float before = max(seen.depth - kLift_m - 2.0 * depthSteps(foot).x, 0.5 * seen.depth);
-  float phase = float(s.seed & 1023u) * (6.2831853 / 1024.0);
+  float seed = float(s.seed & 1023u);
   drawn[at] = SplashPoint(vec4(middle_px * (2.0 / look.viewport.zw), rainStoredDepth(before, look.depth_rows), side_px),
                           vec4(foot_px + look.viewport.xy + 0.5 * look.viewport.zw, uintBitsToFloat(packHalf2x16(up)), before),
                           vec4(d.radius, d.wall_height, d.low, d.high),
                           vec4(uintBitsToFloat(packHalf2x16(light.rg)), uintBitsToFloat(packHalf2x16(vec2(light.b, d.sine))),
-                               uintBitsToFloat(packHalf2x16(vec2(d.wall, phase))), d.droplets));
+                               uintBitsToFloat(packHalf2x16(vec2(d.wall, seed))), d.droplets));
 }
 
 // How many of the bits stand before one. `before`: how many do in the words before each.

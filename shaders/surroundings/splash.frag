@@ -16,9 +16,9 @@ const float kSoft_m = 0.05;  // splashes end over this length at what stands bef
 void main() {
   vec2 up = unpackHalf2x16(floatBitsToUint(splash_foot.z)), from_foot = gl_FragCoord.xy - splash_foot.xy;
   vec2 at = vec2(dot(from_foot, vec2(up.y, -up.x)), dot(from_foot, up));
-  vec2 blue_sine = unpackHalf2x16(splash_look.y), wall_phase = unpackHalf2x16(splash_look.z);
-  SplashDrawn drawn = SplashDrawn(splash_size.x, blue_sine.y, splash_size.y, wall_phase.x, splash_size.z, splash_size.w, uintBitsToFloat(splash_look.w));
-  float cover = splashCover(at, rainPixelHalf(up), drawn, vec2(cos(wall_phase.y), sin(wall_phase.y)));
+  vec2 blue_sine = unpackHalf2x16(splash_look.y), wall_seed = unpackHalf2x16(splash_look.z);
+  SplashDrawn drawn = SplashDrawn(splash_size.x, blue_sine.y, splash_size.y, wall_seed.x, splash_size.z, splash_size.w, uintBitsToFloat(splash_look.w));
+  float cover = splashCover(at, rainPixelHalf(up), drawn) * splashSpeck(vec2(up.y < 0.0 ? -at.x : at.x, at.y), drawn, wall_seed.y);
 #ifdef READ_DEPTH
   float scene = rainSceneDepth(texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r, look.depth_rows, look.zero_to_one);
   cover *= clamp((scene - splash_foot.w) / kSoft_m + 1.0, 0.0, 1.0);

@@ -233,10 +233,9 @@ TEST(Splashes, coverAsMuchAtEverySize) {
           double sum = 0.0;
           for (int y = -26; y < 40; ++y) {
             for (int x = -26; x <= 26; ++x)
-              sum += static_cast<double>(
-                  shared::splashCover(glm::vec2(x, y) + offset, 0.5f, drawn, glm::vec2(0.8f, 0.6f)));
+              sum += static_cast<double>(shared::splashCover(glm::vec2(x, y) + offset, 0.5f, drawn));
           }
-          // Droplets about the ring add up to nothing, but for how pixels sample them.
+          // But for how pixels sample where the disk's far and near sides are.
           const auto expected = static_cast<double>(shared::splashCoverSum(drawn));
           EXPECT_NEAR(sum, expected, 0.03 * expected) << px_per_m << " px/m, sine " << sine << ", " << age_s;
         }
@@ -245,12 +244,76 @@ TEST(Splashes, coverAsMuchAtEverySize) {
   }
 }
 
+// What a splash of 2 mm covers of a picture's pixels, its foot in the middle.
+struct Covered {
+  static constexpr int kHalf = 40;
+  std::vector<std::vector<float>> rows;
+  explicit Covered(const shared::SplashDrawn& drawn) {
+    for (int y = -kHalf; y <= kHalf; ++y) {
+      std::vector<float>& row = rows.emplace_back();
+      for (int x = -kHalf; x <= kHalf; ++x) row.push_back(shared::splashCover(glm::vec2(x, y), 0.5f, drawn));
+    }
+  }
+  float most() const {
+    float most = 0.0f;
+    for (const auto& row : rows) most = std::max(most, std::ranges::max(row));
+    return most;
+  }
+};
+
+// No letters: a puff that is densest in its middle and ends softly, wider than tall.
+TEST(Splashes, arePuffsThatThinOutTowardsTheirRim) {
+  for (const float age_s : {0.02f, 0.03f, 0.045f}) {
+    shared::SplashShape shape = shared::splashShape(0.002f, age_s);
+    shape.wall = 0.0f;  // the crown is a ring
+    const shared::SplashDrawn drawn = shared::splashDrawn(shape, 2500.0f, 0.2f, 3.0f);
+    EXPECT_GT(2.0f * drawn.radius, drawn.high - drawn.low) << age_s;
+    const Covered covered(drawn);
+    for (const auto& row : covered.rows) {
+      EXPECT_TRUE(std::is_sorted(row.begin(), row.begin() + Covered::kHalf + 1)) << age_s;
+      EXPECT_TRUE(std::is_sorted(row.rbegin(), row.rbegin() + Covered::kHalf + 1)) << age_s;
+      for (size_t x = 1; x < row.size(); ++x)
+        EXPECT_LT(std::abs(row[x] - row[x - 1]), 0.2f * covered.most()) << age_s;
+    }
+  }
+}
+
+// As many as one stands for, they are translucent.
+TEST(Splashes, hideAPartOfWhatIsBehindThem) {
+  for (const float px_per_m : {100.0f, 600.0f, 2500.0f}) {
+    for (const float times : {3.0f, 12.0f}) {
+      const Covered covered(shared::splashDrawn(shared::splashShape(0.003f, 0.03f), px_per_m, 0.2f, times));
+      EXPECT_LT(covered.most(), 0.8f) << px_per_m << " px/m, " << times << " times";
+    }
+  }
+}
+
+// Specks add and take nothing.
+TEST(Splashes, areAsBrightWithTheirSpecks) {
+  const shared::SplashDrawn drawn =
+      shared::splashDrawn(shared::splashShape(0.003f, 0.03f), 2500.0f, 0.2f, 3.0f);
+  double sum = 0.0, least = 1.0;
+  constexpr int kSeeds = 100, kHalf = 10;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    for (int y = -kHalf; y < kHalf; ++y) {
+      for (int x = -kHalf; x < kHalf; ++x) {
+        const auto speck =
+            static_cast<double>(shared::splashSpeck(glm::vec2(x, y) + 0.5f, drawn, static_cast<float>(seed)));
+        sum += speck;
+        least = std::min(least, speck);
+      }
+    }
+  }
+  EXPECT_NEAR(sum / (4.0 * kHalf * kHalf * kSeeds), 1.0, 0.01);  // 40 000 of a spread of 0.7
+  EXPECT_LT(least, 0.5);
+}
+
 // Where points may not be as large as they are.
 TEST(Splashes, coverAsMuchWhereTheyAreShrunk) {
   const shared::SplashDrawn drawn =
       shared::splashDrawn(shared::splashShape(0.003f, 0.012f), 2000.0f, 0.4f, 1.0f);
   const float all = shared::splashCoverSum(drawn);
-  EXPECT_NEAR(shared::splashCoverSum(shared::splashShrunk(drawn, 0.4f)), all, 1e-5f * all);
+  EXPECT_NEAR(shared::splashCoverSum(shared::splashScaled(drawn, 0.4f)), all, 1e-5f * all);
 }
 
 // What they cover in nature is what their wall and droplets do, whatever they are drawn like.
