@@ -139,7 +139,7 @@ void GpuScene::uploadMeshes(const Scene& scene) {
       min = glm::min(min, p), max = glm::max(max, p);
     }
     // A little less than its bounds: bumpers are round and mirrors stand out.
-    footprint = {0.45F * (max.x - min.x), 0.42F * (max.y - min.y), 0.5F * (max.x + min.x), 1.0F};
+    footprint = {0.45F * (max.x - min.x), 0.42F * (max.y - min.y), 0.5F * (max.x + min.x), max.z};
   }
   const auto make = [&](GLuint& buffer, const void* data, std::size_t bytes) {
     gl_.CreateBuffers(1, &buffer);

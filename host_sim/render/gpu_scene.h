@@ -90,7 +90,7 @@ class GpuScene {
   bool headlights_glow = false;  ///< they have a mesh beside their lights
   std::vector<GpuGrid> grids;    ///< in the host's frame of the scene
   GLuint vertex_array = 0;
-  glm::vec4 footprint{0.0F};  ///< of a car: half length, half width, middle along x (m), 1
+  glm::vec4 footprint{0.0F};  ///< of a car: half length, half width, middle along x, height (m)
 
  private:
   void uploadMaterials(const Scene& scene);

@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 plane;          // the wet ground's plane: n . p = w
   vec4 screen;         // xy 1 / size in pixels, z 1 where there is a mirror picture, w extinction where no snow falls, 1/m
   mat4 car_from_rel;   // of the car that shades the ground below it
-  vec4 car;            // xy half length and width of its footprint, z middle of it along the car, w 1 where there is one
+  vec4 car;            // xy half length and width of its footprint, z middle of it along the car, w how high it is, 0: there is none
   vec4 lamp_place[kMaxLamps];      // xyz, w 1 / range^2
   vec4 lamp_aim[kMaxLamps];        // xyz where to, w cos of the outer cone
   vec4 lamp_intensity[kMaxLamps];  // rgb, w 1 / (cos inner - cos outer), < 0: a dipped headlight

@@ -5,7 +5,7 @@
 //   SHELTER   a volume with its measured sky visibility is near
 //   SUN       the sun shines, with shadow map
 //   MIRROR    wet ground with a mirror picture of what stands above it
-//   CAR_ABOVE a car shades the ground below it
+//   CAR_ABOVE a car shades the ground below it, and hides lamps
 in vec3 v_position;
 in vec3 v_normal;
 in vec2 v_uv;
@@ -81,6 +81,21 @@ float lowBeam(vec3 away, vec3 aim) {
   float ahead = dot(away, aim);
   return ahead > 0.0 ? below * exp2(-36.0 * aside * aside) + 0.016 * ahead : 0.0;
 }
+
+#ifdef CAR_ABOVE
+// What the car lets through of a lamp's light, both in its frame: less the longer the way in its body is, as that is rounder than the box it is
+// taken for (by eye). Its own lamps stand in its skin and shine away from it.
+float pastCar(vec3 place, vec3 lamp) {
+  const float kClearance_m = 0.2, kSkin_m = 0.4, kThrough_per_m = 4.0;
+  vec3 half_size = vec3(frame.car.xy, 0.5 * (frame.car.w - kClearance_m)), middle = vec3(frame.car.z, 0.0, kClearance_m + half_size.z);
+  vec3 way = lamp - place, to_middle = middle - place;
+  way = mix(way, vec3(1e-4), lessThan(abs(way), vec3(1e-4)));
+  vec3 one = (to_middle - half_size) / way, other = (to_middle + half_size) / way, enters = min(one, other), leaves = max(one, other);
+  float through = min(min(leaves.x, min(leaves.y, leaves.z)), 1.0) - max(max(enters.x, max(enters.y, enters.z)), 0.0);
+  bool own = all(lessThan(abs(lamp - middle), half_size + kSkin_m));
+  return own ? 1.0 : exp(-kThrough_per_m * length(way) * max(through, 0.0));
+}
+#endif
 
 void main() {
   vec4 base = u_base * v_colour;
@@ -215,6 +230,9 @@ void main() {
     float window = clamp(1.0 - d2 * d2 * place.w * place.w, 0.0, 1.0);
     float lit = clamp(dot(n, to_lamp), 0.0, 1.0);
     float beam = intensity.w < 0.0 ? lowBeam(-to_lamp, aim.xyz) : cone * cone;
+#ifdef CAR_ABOVE
+    beam *= pastCar(in_car, (frame.car_from_rel * vec4(place.xyz, 1.0)).xyz);
+#endif
 #ifdef SHELTER
     // The roof that keeps the sky out keeps a lamp above it out.
     float through = (seen.x + dot(seen.yzw, to_lamp)) / max(0.333 + 0.583 * to_lamp.z, 0.12);

@@ -174,6 +174,45 @@ TEST_F(Drawn, aShelterIsDarkInside) {
   EXPECT_EQ(context->glErrors(), 0U);
 }
 
+// A lamp ahead of a car lights the ground before it, and not the ground behind it, which the eye looks down
+// on.
+TEST_F(Drawn, aCarHidesLampsFromTheGroundBehindIt) {
+  Scene scene;
+  scene.materials = {paint(glm::vec3(0.3F))};
+  add(scene, box({-100, -1, -100}, {100, 0, 100}, 0));
+  scene.lights.emplace_back().intensity = 20000.0F;
+  Node lamp;
+  lamp.in_scene = true;
+  lamp.light = 0;
+  lamp.meaning = LightMeaning{LightRole::Street};
+  lamp.local[3] = lamp.scene_from_node[3] = {14.0F, 3.0F, 0.0F, 1.0F};
+  lamp.has_matrix = true;
+  scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+  scene.order.push_back(static_cast<int>(scene.nodes.size()));
+  scene.nodes.push_back(lamp);
+  const InstanceId road = renderer.addInstance(renderer.addScene(scene, SceneFrame::Road));
+  Scene body;
+  body.materials = {paint(glm::vec3(0.2F))};
+  add(body, box({-1, 0.2F, -2}, {1, 1.4F, 2}, 0));
+  const InstanceId car = renderer.addInstance(renderer.addScene(body, SceneFrame::Car));
+  Placement placed;
+  placed.world_from_host = glm::translate(glm::dmat4(1.0), glm::dvec3(8.0, 0.0, 0.0));
+  renderer.place(car, placed);
+  sky.rain_mm_h = 5.0;
+  sky.to_sun = {0.0F, 1.0F, -1.0F};  // night
+
+  Placement with, without;
+  without.lamp_levels[static_cast<std::size_t>(LightRole::Street)] = 0.0F;
+  const auto by_lamp = [&](int x, int y) {
+    renderer.place(road, with);
+    const int lit = at(draw(), x, y).y;
+    renderer.place(road, without);
+    return lit - at(draw(), x, y).y;
+  };
+  EXPECT_GT(by_lamp(10, 75), 10) << "beside it";
+  EXPECT_LT(by_lamp(80, 75), by_lamp(10, 75) / 5) << "behind it";
+}
+
 TEST_F(Drawn, aPictureOfTheSurroundingsIsSeenWhereItLies) {
   // Red ahead (+x, the middle column), blue elsewhere.
   constexpr int width = 64, height = 32;
