@@ -43,7 +43,9 @@ glm::mat4 clipOfMirrored(const SeenMirror& mirror, const glm::mat4& clip_from_re
   cropped[3][0] = -middle.x * scale.x;
   cropped[3][1] = -middle.y * scale.y;
   glm::mat4 clip = cropped * clip_from_rel * mirrored_from_rel;
-  const glm::vec4 before(n, -mirror.offset_m);
+  // Its own face, which may be seen from both sides, is not before itself.
+  constexpr float kFace_m = 2e-3F;
+  const glm::vec4 before(n, -mirror.offset_m - kFace_m);
   for (int column = 0; column < 4; ++column) clip[column][2] = clip[column][3] - kFall * before[column];
   return clip;
 }

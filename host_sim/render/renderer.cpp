@@ -237,8 +237,7 @@ bool Renderer::Self::paintMirror(const View& view, glm::ivec2 size_px, const Wha
   return true;
 }
 
-/// The world as a car's mirror shows it; its own flank hardly comes into it from where its driver sits, and
-/// costs more than all the rest.
+/// The world and the car itself as its mirror shows them.
 Painted Renderer::Self::paintCarMirror(CarMirror& mirror, const View& view, const Target& target) {
   constexpr float kLeastSize = 0.004F;
   const glm::dvec3 eye_m = eyeOf(view.eye_from_world);

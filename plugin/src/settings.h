@@ -97,8 +97,8 @@ inline constexpr SettingInfo kSettings[] = {
     {"glass.blur", "1", "glass", "of what is seen through droplets too small to be drawn", 0.0, 4.0,
      &Settings::glass_blur},
     {"glass.pupil_m", "m", "glass",
-     "width of the pupil of the eye or camera, which is focused on what is far: drops on glass that it looks "
-     "through, that wide or less, dissolve, where depth_texture is given; 0 = all is sharp",
+     "width of the pupil of the eye or camera, which is focused on what is far: water on glass that it looks "
+     "through is out of focus as much, where depth_texture is given; 0 = all is sharp",
      0.0, 0.05, &Settings::glass_pupil_m},
     {"glass.run_off", "1", "glass",
      "share of the water that runs off a pane at a pillar and goes on over the pane behind it; 0 = the car "

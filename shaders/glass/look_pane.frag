@@ -149,22 +149,46 @@ vec3 shownBy(Bent bent, View view, float spanned, inout vec3 blurred) {
 // all: what lies between their places in the picture is seen too, so that no lamp is seen eight times.
 const int kPupilPoints = 8;
 const float kBetween = 0.7;  // of how far they lie apart (by eye)
+const float kFarthestPoint = 2.0;  // texels: no farther off than cells beside wet ones are drawn (kSoftReach of look_gl.cpp)
 
-vec4 waterBeside(vec2 px) {
-  vec4 water = textureLod(film, i.uv + px.x * dFdx(i.uv) + px.y * dFdy(i.uv), 0.0);
-#ifdef RIDGES
-  vec3 dx = dFdx(i.from_eye), dy = dFdy(i.from_eye);
-  SeenRidge ridge = seenRidge(i.from_eye + frame.eye_in_vehicle.xyz, dx, dy);
-  water = withRidge(water, ridge, dot(px.x * dx + px.y * dy, ridge.ahead) / ridge.pixel_m);
+vec4 filmBeside(vec2 px) {
+  vec2 uv = i.uv + px.x * dFdx(i.uv) + px.y * dFdy(i.uv);
+#ifdef COARSE
+  return textureBicubic(film, uv);
+#else
+  return textureLod(film, uv, 0.0);
 #endif
-  return water;
+}
+
+// At least over the pixel itself, as a ridge may be narrower than that.
+float pointsReach_px() {
+  vec2 texels = vec2(textureSize(film, 0)), dx = dFdx(i.uv) * texels, dy = dFdy(i.uv) * texels;
+  return clamp(pupilRadius_px(i.from_eye), 0.5, max(kFarthestPoint / max(max(length(dx), length(dy)), 1e-4), 0.5));
+}
+
+// Where it looks past the glass; at its own place where something stands close behind what it would look at.
+vec2 pastWhatIsNear(View view, vec2 shift) {
+  mat3 eye_from_vehicle = mat3(frame.eye_from_vehicle);
+  vec3 normal_eye = eye_from_vehicle * view.normal;
+  float least_m = min(0.5 * view.behind_m, kFarthestNear_m);
+  bool free = behindGlassAt_m(mirrored(view.at + shift), normal_eye, dot(normal_eye, eye_from_vehicle * i.from_eye)) >= least_m;
+  return view.at + (free ? shift : vec2(0.0));
 }
 
 vec3 throughFilmSoftly(View view) {
-  float radius_px = pupilRadius_px(i.from_eye), wet = 0.0, more = 0.0;
+  float radius_px = pointsReach_px(), wet = 0.0, more = 0.0;
+#ifdef RIDGES
+  vec3 dx = dFdx(i.from_eye), dy = dFdy(i.from_eye);
+  SeenRidge ridge = seenRidge(i.from_eye + frame.eye_in_vehicle.xyz, dx, dy);
+  vec2 ahead_px = vec2(dot(dx, ridge.ahead), dot(dy, ridge.ahead)) / ridge.pixel_m;
+#endif
   vec2 shifts[kPupilPoints], mean = vec2(0.0), square = vec2(0.0);
   for (int k = 0; k < kPupilPoints; ++k) {
-    vec4 water = waterBeside(radius_px * placeOnDisc(k, kPupilPoints));
+    vec2 px = radius_px * placeOnDisc(k, kPupilPoints);
+    vec4 water = filmBeside(px);
+#ifdef RIDGES
+    water = withRidge(water, ridge, dot(px, ahead_px));
+#endif
     Bent bent = bentBy(water, view);
     shifts[k] = bent.shift;
     mean += bent.shift / float(kPupilPoints);
@@ -173,10 +197,10 @@ vec3 throughFilmSoftly(View view) {
     wet += float(water.w > kDry_um) / float(kPupilPoints);
   }
   vec2 apart_px = sqrt(max(square - mean * mean, 0.0)) * frame.viewport.zw;
-  float spanned = max(kBetween * length(apart_px), 1.0);
-  float share = shareToBehind(view, mean, spanned);
+  float spanned = max(kBetween * length(apart_px), 1.0), share = shareToBehind(view, mean, spanned);
+  spanned = max(share * spanned, 1.0);
   vec3 light = vec3(0.0);
-  for (int k = 0; k < kPupilPoints; ++k) light += behind(view.at + share * shifts[k], spanned) / float(kPupilPoints);
+  for (int k = 0; k < kPupilPoints; ++k) light += behind(pastWhatIsNear(view, share * shifts[k]), spanned) / float(kPupilPoints);
   light = mix(light, frame.cabin_share * throughDroplets(view.at + share * mean), more);
   return mix(1.0, frame.brightness, wet) * light;
 }

@@ -43,13 +43,16 @@ RG_FN float cubeRoot(float x) {
   return root;
 }
 
-// Of each, if all are alike, in whole picolitres: a quotient of numbers below 2^24 is rounded up to no next one, and software GL divides floats eight
-// at a time, integers one by one.
-RG_FN float meanBead_pl(RG_IN(Beads) beads) { return floor(float(beads.volume_pl) / float(max(beads.number, 1))); }
+// Of each, if all are alike, in whole picolitres. Software GL divides floats eight at a time, integers one by one; a GPU's quotient may be off by
+// one, which is mended.
+RG_FN int meanBead_pl(RG_IN(Beads) beads) {
+  int number = max(beads.number, 1), mean = int(float(beads.volume_pl) / float(number)), rest = beads.volume_pl - mean * number;
+  return mean + int(rest >= number) - int(rest < 0);
+}
 
 // Radius of the base of beads of the same volume each. `mm3_per_pl`: the cube of that of a picolitre, by the contact angle: V = R^3 capShape
 // (glass/water.h).
-RG_FN float beadRadius_mm(RG_IN(Beads) beads, float mm3_per_pl) { return cubeRoot(meanBead_pl(beads) * mm3_per_pl); }
+RG_FN float beadRadius_mm(RG_IN(Beads) beads, float mm3_per_pl) { return cubeRoot(float(meanBead_pl(beads)) * mm3_per_pl); }
 
 // How many beads of a volume in all cover a share of an area, `per_m2` being 1 / area: share = n pi R^2 / area and V = n R^3 capShape, so
 // n = (share area / pi)^3 (capShape / V)^2. Millimetres, for the range of floats.

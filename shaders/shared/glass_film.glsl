@@ -299,7 +299,7 @@ RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, RG_IN(vec4) metric, RG_
   int too_much_pl = t.film_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
   bool overfull = h_m > kOverfull_m, too_large = t.beads.number > 0 && (alone || t.beads.volume_pl > t.beads.number * info.most_bead_pl);
   t.stirs = int(too_large || h_m >= info.pin_m);
-  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? too_much_pl : too_large ? int(meanBead_pl(t.beads)) : 0;
+  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? too_much_pl : too_large ? meanBead_pl(t.beads) : 0;
   return t;
 }
 // ... and after its tile's offer has gone to the drops.

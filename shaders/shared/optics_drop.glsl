@@ -54,7 +54,8 @@ RG_FN Cap capOf(float contact_angle_rad, float stretch) {
 }
 
 // The base's area, and a cap's volume, by those over half an ellipse to the head and half of another to the tail's end. Fitted to sums of slices for
-// this taper: within 0.1 % and, up to a contact angle of 60 degrees, 1 %, of tails up to 2.5.
+// this taper: within 0.1 % and, up to a contact angle of 60 degrees, 1 %, of tails up to the longest.
+RG_CONST float kLongestTail = 2.5f;
 RG_FN float tailedArea(float tail) { return 1.0f - 0.1025f * (1.0f - 1.0f / tail); }
 RG_FN float tailedVolume(float tail) { return 1.0f - 0.22f * (1.0f - 1.0f / tail); }
 
@@ -62,7 +63,7 @@ RG_FN float tailedVolume(float tail) { return 1.0f - 0.22f * (1.0f - 1.0f / tail
 // width and its volume (of caps as h (3 + h^2)) are that ellipse's; its head is the rounder the more of a corner it has. One that overhangs its base
 // has no tail.
 RG_FN Cap capOfDrop(float height, float elongation, float corner) {
-  float tail = 1.0f + 2.0f * corner * (1.0f - smoothstep(0.9f, 1.0f, height)) * (elongation - 1.0f);
+  float tail = min(1.0f + 2.0f * corner * (1.0f - smoothstep(0.9f, 1.0f, height)) * (elongation - 1.0f), kLongestTail);
   float area = tailedArea(tail), square = height * height;
   float more = area * sqrt(area) / tailedVolume(tail) - 1.0f;
   float tailed = height * (1.0f + more * (3.0f + square) / (3.0f + 3.0f * square));

@@ -94,8 +94,10 @@ TEST_F(Drawn, aCarsMirrorShowsWhatStandsBeforeItAndItsOwnCar) {
   scene.meshes[2].primitives = {box({4, 0, -3}, {5, 3, 3}, 1)};
   renderer.addInstance(renderer.addScene(scene, SceneFrame::Road));
   Scene body;
-  body.materials = {paint({0.02F, 0.02F, 0.7F})};
+  body.materials = {paint({0.02F, 0.02F, 0.7F}), paint({0.7F, 0.02F, 0.02F})};
+  body.materials[1].double_sided = true;
   add(body, box({-4, 0, -10}, {-2, 3, -9}, 0));
+  add(body, box({-1, 0.7F, 3}, {1, 2.3F, 3.001F}, 1));  // the mirror's own face, in its plane
   const InstanceId car = renderer.addInstance(renderer.addScene(body, SceneFrame::Car));
   const std::array<glm::vec3, 4> corners{
       {{3.0F, 1.0F, 0.7F}, {3.0F, -1.0F, 0.7F}, {3.0F, -1.0F, 2.3F}, {3.0F, 1.0F, 2.3F}}};
@@ -122,11 +124,13 @@ TEST_F(Drawn, aMirrorOfAFewPixelsIsDrawn) {
   const InstanceId road = renderer.addInstance(renderer.addScene(twoBoxes(), SceneFrame::Road));
   const std::array<glm::vec3, 3> corners{{{3.0F, 0.05F, 1.4F}, {3.0F, -0.05F, 1.4F}, {3.0F, 0.0F, 1.5F}}};
   renderer.addMirror(road, corners, std::array<std::uint32_t, 3>{0, 1, 2}, {-1.0F, 0.0F, 0.0F});
-  draw();
+  const auto without = draw();
   renderer.drawMirrors(
       {glm::lookAt(glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(1.0, 0.0, 1.4), glm::dvec3(0, 0, 1)),
        reversedPerspective(1.0, kSize)},
       target);
+  renderer.toneMap(target, picture.framebuffer(), exposureFor(renderer.adaptingLuminance({0.0, 0.0, 1.5})));
+  EXPECT_NE(picture.read(), without);
   EXPECT_EQ(context->glErrors(), 0U);
 }
 

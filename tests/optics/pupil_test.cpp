@@ -72,8 +72,9 @@ TEST_F(Pupil, dropsOutOfFocusAreTheMeanOfWhatItsPointsSee) {
 
 // Waves as short as a film's are, for so wide a pupil.
 TEST_F(Pupil, filmOutOfFocusIsTheMeanOfWhatItsPointsSee) {
-  FlatPane pane(gl, kRake, 0.8, 400);
-  pane.putFilm([](double u, double v) { return 60e-6 * (1.0 + std::sin(520.0 * u) * std::cos(400.0 * v)); });
+  FlatPane pane(gl, kRake, 0.8, 128);
+  pane.putFilm([](double u, double v) { return 60e-6 * (1.0 + std::sin(250.0 * u) * std::cos(200.0 * v)); });
+  pane.cutIntoPieces();
   Scene scene = inside({384, 216});
   scene.picture = paint(scene.size_px, [](int x, int y) {
     return glm::vec3(0.5f) + 0.4f * glm::vec3(std::sin(0.1f * static_cast<float>(x)),
@@ -83,6 +84,23 @@ TEST_F(Pupil, filmOutOfFocusIsTheMeanOfWhatItsPointsSee) {
   // Eight points stand for the pupil: what they miss of waves is 1 / sqrt(8) of these, at most.
   EXPECT_LT(seen.soft_wrong, 0.35 * seen.sharp_wrong);
   EXPECT_GT(seen.sharp_wrong, 1.0);
+}
+
+// Lines of film a texel wide: each pupil's point sees them elsewhere, beyond the cells of four texels that
+// hold them.
+TEST_F(Pupil, filmOutOfFocusIsSeenAsFarAsItsPointsSeeIt) {
+  FlatPane pane(gl, kRake, 0.8, 128);
+  const double texel_m = 0.8 / 128;
+  pane.putFilm([&](double u, double) {
+    return std::lround(std::floor(u / texel_m)) % 8 == -2 ? 100e-6 : 0.0;  // two texels from the next cell
+  });
+  pane.cutIntoPieces();
+  Scene scene = inside({384, 216});
+  scene.picture = paint(scene.size_px, [](int x, int) {
+    return glm::vec3(0.5f + 0.4f * std::sin(0.1f * static_cast<float>(x)));
+  });
+  const Seen seen = seenAgainstOracle(pane, scene);
+  EXPECT_LT(seen.soft_wrong, 0.35 * seen.sharp_wrong);
 }
 
 }  // namespace

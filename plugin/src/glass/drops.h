@@ -53,7 +53,7 @@ struct alignas(32) Drop {
     a.within(drop.place_m, 0.0, 100.0);
     a.within(drop.base_radius_m, 1e-9, 10.0);
     a.within(drop.elongation, 1.0, 100.0);
-    a.within(drop.corner, -10.0, 10.0);
+    a.within(drop.corner, -1.001, 1.001);
     a.within(drop.braced_pl, 0.0, 3.4e38);
     a(drop.changed);
     a.within(drop.heading, -1.1, 1.1);

@@ -34,6 +34,9 @@ constexpr float kSteepestRidge_rad = 1.4f;
 // Texels off which film is seen: its surface is a spline of the texel's neighbours, and is looked up between
 // two texels or, where they are large, among four.
 constexpr int kSmoothReach = 2, kCoarseReach = 3;
+// Where it is seen out of focus, too, as far as cells can tell of each other: kFarthestPoint of
+// look_pane.frag is two texels more than the smooth surface's.
+constexpr int kSoftReach = shared::kCellSize;
 
 enum Unit : GLuint { kPicture = 0, kSurroundings = 1, kFirst = 2, kSecond = 3, kThird = 4, kDepth = 5 };
 
@@ -350,7 +353,7 @@ void GlassLook::Parts::drawDrops() {
 }
 
 // Beads and drops apart from the picture, whose depth hides them as it does on the glass, and blurred over
-// it. The film needs no blur: it bends what is far a little, as sharp as it was.
+// it. Film bends the picture itself, and is drawn into it as the pupil's points see it (kSoft).
 void GlassLook::Parts::drawUnsharp(const LookPane& pane, const LookView& view, const LookTarget& target) {
   gl::Texture2D& apart = layers.ofSize(target.width_px, target.height_px).texture;
   const float nothing[4] = {};
@@ -429,11 +432,11 @@ void GlassLook::drawPanes(std::span<const LookPane> panes, const LookView& view,
     }
     drawn.push_back(seen);
     p.fillFrame(pane, view, target, light, settings);
-    p.water.prepare(pane, p.variant & kCoarse ? kCoarseReach : kSmoothReach);
+    const bool unsharp = settings.pupil_m > 0.0f && target.depth_texture != 0 && pane.mirror <= 0.0f;
+    p.water.prepare(pane, unsharp ? kSoftReach : p.variant & kCoarse ? kCoarseReach : kSmoothReach);
     p.setState(view, target);
     p.bindLook(light, target);
     if (with_lamps) p.lamps.hide();
-    const bool unsharp = settings.pupil_m > 0.0f && target.depth_texture != 0 && pane.mirror <= 0.0f;
     p.drawWater(pane, unsharp ? kFilm | kRidges | kSoft : kFilm | kBeads | kRidges);
     if (unsharp) {
       p.drawUnsharp(pane, view, target);

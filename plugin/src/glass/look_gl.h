@@ -130,9 +130,9 @@ struct LookSettings {
   int capture_size_px = 256;     // of one face of the captured cube
   float brightness = 1.0f;       // of what is seen through water
   float blur = 1.0f;             // of what is seen through unresolved droplets
-  float pupil_m = 0.0f;        // how wide the pupil is that looks at what is far: beads and drops that an eye
-                               // within sees are blurred by as much, where the target's depth is given
-  bool dry_reflection = true;  // dry glass reflects its surroundings when looked at from outside
+  float pupil_m = 0.0f;          // how wide the pupil is that looks at what is far: water that an eye within
+                                 // sees is blurred by as much, where the target's depth is given
+  bool dry_reflection = true;    // dry glass reflects its surroundings when looked at from outside
 };
 
 // What a host's depth means: GL's -1 .. 1 or 0 .. 1, and whether it falls with distance.

@@ -66,7 +66,6 @@ uint32_t askedOf(LookStage stage, uint32_t variant) {
   uint32_t asked = variant & kSources[static_cast<size_t>(stage)].asks;
   if (stage != LookStage::pane) return asked;
   if ((asked & kFilm) == 0 || (asked & kInside) == 0) asked &= ~(kCoarse | kSoft);
-  if ((asked & kSoft) != 0) asked &= ~uint32_t{kCoarse};
   if ((asked & kInside) != 0 && (asked & kBeads) == 0) asked &= ~uint32_t{kEnvironment};
   return asked;
 }
@@ -88,7 +87,8 @@ void LookPrograms::makeAll(uint32_t encoded) {
     for (const uint32_t ridges : {kPlain, kRidges}) {
       for (const uint32_t coarse : {kPlain, kCoarse})
         made(pane, lit | kInside | coarse | kFilm | kBeads | ridges);
-      made(pane, lit | kInside | kFilm | kSoft | ridges);
+      for (const uint32_t coarse : {kPlain, kCoarse})
+        made(pane, lit | kInside | coarse | kFilm | kSoft | ridges);
       for (const uint32_t mirror : {kPlain, kMirror}) made(pane, lit | kFilm | kBeads | mirror | ridges);
     }
     for (const uint32_t apart : {kPlain, kApart}) made(pane, lit | kInside | kBeads | apart);
