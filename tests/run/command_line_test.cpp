@@ -44,7 +44,7 @@ TEST(CommandLine, wrongInputIsOneLineAndExitCode2) {
   expectRefused("--headless --set weather.rain_mm_h=-5", 2, "rain_mm_h");
   expectRefused("--headless --set plugin.rain.gain=1e9", 2, "rain.gain");
   expectRefused("--headless --set plugin.no.such=1", 2, "no.such");
-  expectRefused("--headless --camera moon", 2, "window, lens");
+  expectRefused("--headless --camera moon", 2, "window, mirror, lens");
   expectRefused("--headless --car /nonexistent.glb", 2, "nonexistent.glb");
   expectRefused("--headless --road /dev/null", 2, "null: is not a regular file");
   expectRefused("--headless --environment /nonexistent.hdr", 2, "nonexistent.hdr");
