@@ -38,6 +38,9 @@ const CameraView* cameraOf(const CarView& car, const std::string& name) {
   return found == car.cameras.end() ? nullptr : &*found;
 }
 
+// Before the drive begins; at 0 s it is under way, and rain passes by it as fast as that.
+void stand(CarState& car) { car.velocity_mps = car.angular_velocity_radps = glm::dvec3(0.0); }
+
 }  // namespace
 
 std::vector<std::string> cameraNames(const CarView& car) {
@@ -189,7 +192,7 @@ void Simulation::tell() {
   Moment m;
   m.time_ns = hostTickNs(tick_);
   m.car = driver_.state();
-  if (timeS() <= 0.0) m.car.velocity_mps = m.car.angular_velocity_radps = glm::dvec3(0.0);
+  if (timeS() < 0.0) stand(m.car);
   m.traffic = trafficAt(m.time_ns - prewarm_ns_);
   const Weather w = weather();
   plugin_.api().default_weather(&m.weather);
@@ -216,7 +219,7 @@ CarState Simulation::carAt(int64_t time_ns) const {
   const double since_s =
       static_cast<double>(pluginTime(time_ns) - hostTickNs(std::max<int64_t>(tick_, 0))) * 1e-9;
   CarState car = driver_.at(timeS() <= 0.0 ? 0.0 : since_s);
-  if (timeS() <= 0.0) car.velocity_mps = car.angular_velocity_radps = glm::dvec3(0.0);
+  if (timeS() < 0.0) stand(car);
   return car;
 }
 
