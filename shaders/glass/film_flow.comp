@@ -22,13 +22,13 @@ const int kColumns = kWalkStrips * kStripSize;
 
 // What an invocation saw on its way: its part of the tile's report.
 struct Walk {
-  int offer_pl; // its greatest to the drops
+  int offer_pl; // the most that one has which offers some to the drops
   int offer_at; // place in the tile, row by row, of the first texel that makes it
   int film_low_pl, film_high, drained_pl, blown_pl, beads_pl; // as in FilmTile
   int stirs;    // not to fall asleep
 };
-// What the walks of a group tell each other: their parts of the fields of FilmTile, then whether they stir and what the offering texel has.
-const int kStirs = 8, kFilm = 9, kBeads = 10, kTold = 11;
+// What the walks of a group tell each other: their parts of the fields of FilmTile, then whether they stir, what the offering texel has and what it gives.
+const int kStirs = 8, kFilm = 9, kBeads = 10, kGives = 11, kTold = 12;
 shared int told[kTold * kGroup];
 
 // Fields at a place, at a tile's corners, and along a column of it: at its lower and its upper edge.
@@ -138,7 +138,6 @@ Walk walk(ivec2 tile, int lane) {
   vec4 metric_here[kColumns];
   FilmCell me[kColumns];
   int from_below[kColumns];
-  bool below_off[kColumns];
   // The rows below, here and above; of the two beyond only what lies in the own columns.
   Row beneath = rowOf(strip - 2 * across), last = rowOf(strip - across), here = rowOf(strip), ahead = rowOf(strip + across);
   Glass glass_last = glassOf(strip - across), glass_here = glassOf(strip);
@@ -150,7 +149,6 @@ Walk walk(ivec2 tile, int lane) {
     metric_here[k] = field.metric;
     me[k] = cellOf(field, here.at[k + 2], aroundOf(here, k, last.at[k + 2], ahead.at[k + 2]), levelAt(glass_here, k), step);
     from_below[k] = flowBetween_pl(behind, behind.y_pl, behind.y_both_pl, me[k], me[k].y_pl, me[k].y_both_pl, step);
-    below_off[k] = behind.volume_pl < 0;
   }
 
   // Over the pane's edges.
@@ -168,7 +166,8 @@ Walk walk(ivec2 tile, int lane) {
       FilmAround by_right = filmAround(here.at[r], here.at[r - 1], here.at[r + 1], last.at[r], ahead.at[r]);
       FilmCell left = cellOf(fieldAt(left_column, y), here.at[l], by_left, levelAt(glass_here, -1), step);
       FilmCell right = cellOf(fieldAt(right_column, y), here.at[r], by_right, levelAt(glass_here, kColumns), step);
-      bool left_off = left.volume_pl < 0;
+      // Carried on once, in the row.
+      for (int k = 0; k < kColumns; ++k) me[k].volume_pl = here.at[k + 2];
       int from_left = flowBetween_pl(left, left.x_pl, left.x_both_pl, me[0], me[0].x_pl, me[0].x_both_pl, step);
       Beaded lay = beadsIn(strip), lie = lay;
       int after_pl[kColumns];
@@ -179,14 +178,14 @@ Walk walk(ivec2 tile, int lane) {
         FilmCell next = cellOf(field, ahead.at[k + 2], aroundOf(ahead, k, here.at[k + 2], beyond.at[k + 2]), levelAt(glass_ahead, k), step);
         int to_next = flowBetween_pl(me[k], me[k].y_pl, me[k].y_both_pl, next, next.y_pl, next.y_both_pl, step);
 
-        bool on = me[k].volume_pl >= 0;
-        over_left += on && left_off ? -from_left : 0;
-        over_right += on && beside.volume_pl < 0 ? to_right : 0;
-        over_below += on && below_off[k] ? -from_below[k] : 0;
-        over_above += on && next.volume_pl < 0 ? to_next : 0;
+        // Nothing passes between two that are off the pane.
+        over_left -= here.at[k + 1] < 0 ? from_left : 0;
+        over_right += here.at[k + 3] < 0 ? to_right : 0;
+        over_below -= last.at[k + 2] < 0 ? from_below[k] : 0;
+        over_above += ahead.at[k + 2] < 0 ? to_next : 0;
 
         int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_below[k]) - to_next;
-        FilmTexel now = settled(on ? volume : -1, beadsOf(lay.of[k]), metric_here[k], step);
+        FilmTexel now = settled(here.at[k + 2] < 0 ? -1 : volume, beadsOf(lay.of[k]), metric_here[k], step);
         now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
         see(now, at + k, seen);
         // Asleep next time only if neighbours, too, have seen it lie still.
@@ -194,8 +193,6 @@ Walk walk(ivec2 tile, int lane) {
         after_pl[k] = now.film_pl;
         lie.of[k] = packedBeads(now.beads);
 
-        left_off = !on;
-        below_off[k] = !on;
         from_left = to_right;
         from_below[k] = to_next;
         me[k] = next;
@@ -227,21 +224,24 @@ int listedTile() {
 
 int toldBy(int walk, int what) { return told[what * kGroup + walk]; }
 
-// A strip of the film and of the beads, and a texel of it.
-struct Offering { int strip, k; ivec4 film_pl; uvec4 beads; };
+// A strip of the film and of the beads, a texel of it, and what it gives.
+struct Offering { int strip, k; ivec4 film_pl; uvec4 beads; int gives_pl; };
 Offering offeringOf(ivec2 tile, int at, bool offers) {
-  Offering o = Offering(0, 0, ivec4(0), uvec4(0u));
+  Offering o = Offering(0, 0, ivec4(0), uvec4(0u), 0);
   if (!offers) return o;
   o.strip = (tile.y * kTileSize + at / kTileSize) * tilesAcross() * kStrips + tile.x * kStrips + at % kTileSize / kStripSize;
   o.k = at % kStripSize;
   o.film_pl = after[o.strip];
   o.beads = beads[o.strip];
+  int x = tile.x * kTileSize + at % kTileSize, y = tile.y * kTileSize + at / kTileSize;
+  float per_m2 = fieldAt(columnOf(cornersOf(x, y), x), y).metric.z;
+  o.gives_pl = offered_pl(FilmTexel(o.film_pl[o.k], beadsOf(o.beads[o.k]), 0, 0), per_m2);
   return o;
 }
 
 void tell(Walk seen, Offering offering) {
   int what[kTold] = int[kTold](seen.offer_at, seen.offer_pl, seen.film_low_pl, seen.film_high, seen.drained_pl, seen.blown_pl, 0, seen.beads_pl,
-                               seen.stirs, offering.film_pl[offering.k], int(offering.beads[offering.k]));
+                               seen.stirs, offering.film_pl[offering.k], int(offering.beads[offering.k]), offering.gives_pl);
   for (int k = 0; k < kTold; ++k) told[k * kGroup + int(gl_LocalInvocationIndex)] = what[k];
 }
 
@@ -262,7 +262,7 @@ int giverAmong(int first) {
 void report(int t, ivec2 tile, int lane, Offering own) {
   int self = int(gl_LocalInvocationIndex), first = self - lane, giver = giverAmong(first), from = max(giver, first);
   bool given = giver >= 0;
-  int given_pl = given ? toldBy(from, 1) : 0, at = toldBy(from, 0);
+  int given_pl = given ? toldBy(from, kGives) : 0, at = toldBy(from, 0);
   FilmTexel had = FilmTexel(toldBy(from, kFilm), beadsOf(uint(toldBy(from, kBeads))), given_pl, 0), left = without(had, given_pl);
   if (giver == self) {
     own.film_pl[own.k] = left.film_pl;

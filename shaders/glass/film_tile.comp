@@ -46,7 +46,7 @@ shared vec4 node_metric[kNodes * kNodes], node_drive[kNodes * kNodes];
 
 shared int stirring, was_awake, stirs_next; // it or a tile beside it now, as it was in the last step, it in the next
 shared int lies; // other than 0 where there is water on it, as its last report had it
-shared int most_pl, giver; // of what texels offer to the drops; the first that offers so much
+shared int most_pl, giver; // of what texels have that offer some to the drops, then what is given; the first that has so much
 shared int drained_pl, blown_pl;
 
 void tell(int t, FilmTile told) {
@@ -146,8 +146,7 @@ FilmCell workedOut(ivec2 at, int level, vec4 metric_here) {
 FilmCell known(ivec2 at) {
   int k = cellAt(at), x_pl = cell_pl[kX + k], y_pl = cell_pl[kY + k];
   float slack = cell_slack[k];
-  return FilmCell(film[seenAt(at)], cell_h_m[k], x_pl, y_pl, cell_pl[kXBoth + k], cell_pl[kYBoth + k], cell_hollowness[k], slack,
-                  float(max(abs(x_pl), abs(y_pl))), max(-slack, 0.0));
+  return FilmCell(film[seenAt(at)], cell_h_m[k], x_pl, y_pl, cell_pl[kXBoth + k], cell_pl[kYBoth + k], cell_hollowness[k], slack, max(-slack, 0.0));
 }
 
 int alongX(FilmCell a, FilmCell b) { return flowBetween_pl(a, a.x_pl, a.x_both_pl, b, b.x_pl, b.x_both_pl, info); }
@@ -205,12 +204,15 @@ FilmTexel flowed(ivec2 at, int volume_pl, uint lay, vec4 metric_here) {
 }
 
 // One texel of a tile gives to the drops: the one with most, the first of those.
-FilmTexel given(FilmTexel now) {
+FilmTexel given(FilmTexel now, vec4 metric_here) {
   if (now.gone_pl > 0) atomicMax(most_pl, now.gone_pl);
   barrier();
   if (now.gone_pl > 0 && now.gone_pl == most_pl) atomicMin(giver, lane());
   barrier();
-  if (lane() == giver) now = without(now, now.gone_pl);
+  if (lane() == giver) {
+    most_pl = offered_pl(now, metric_here.z);
+    now = without(now, most_pl);
+  }
   return now;
 }
 
@@ -243,7 +245,7 @@ FilmTexel flow(uint lay, int level, int level_beside, vec4 metric_here) {
   FilmTexel now = flowed(at, me.volume_pl, lay, metric_here);
   // Asleep next time only if neighbours, too, have seen it lie still.
   if (now.stirs != 0 || me.h_m >= info.pin_m) stirs_next = 1;
-  return given(now);
+  return given(now, metric_here);
 }
 
 // One that sleeps stays asleep, and nothing brings one copy of its film to the other: both are written. A group beside may be reading the one before: it

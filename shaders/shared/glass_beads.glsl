@@ -57,9 +57,9 @@ RG_FN float beadRadius_mm(RG_IN(Beads) beads, float mm3_per_pl) { return cubeRoo
 // How many beads of a volume in all cover a share of an area, `per_m2` being 1 / area: share = n pi R^2 / area and V = n R^3 capShape, so
 // n = (share area / pi)^3 (capShape / V)^2. Millimetres, for the range of floats.
 RG_FN float beadsCovering(int volume_pl, float share, float mm3_per_pl, float per_m2) {
-  float covered_mm2 = share * 1.0e6f / (per_m2 * 3.1415927f);
-  float base_mm3 = float(max(volume_pl, 1)) * mm3_per_pl;
-  return covered_mm2 * covered_mm2 * covered_mm2 / (base_mm3 * base_mm3);
+  float covered = share * 1.0e6f / 3.1415927f;
+  float base_per_area = float(max(volume_pl, 1)) * mm3_per_pl * per_m2;
+  return covered * covered * covered / (base_per_area * base_per_area * per_m2);
 }
 
 // Of how many equal beads the water of two kinds is, so that a picolitre finds itself in a bead as large as before in the mean: as many as both where

@@ -49,8 +49,7 @@ struct FilmCell {
   int x_both_pl; // what it wants to give to each of its neighbours along x besides
   int y_both_pl;
   float hollowness; // times the cube of a thickness (m^3): the picolitres that surface tension draws in through a face in a step
-  float slack;      // how much of a cell its waves leave
-  float mainly_pl;  // the greater of what it wants to give along x and y
+  float slack;      // how much of a cell its waves leave; of no meaning where it is not wet
   float entry_m;    // how thick a film must be that is driven straight into it: 0 off the pane and where it is wet
 };
 
@@ -60,6 +59,10 @@ struct FilmAround {
   int least_pl;  // of those on the pane
   int gap_pl;    // the lesser of two that lie opposite each other, of the pair that has more
 };
+
+// Software GL's min() and max() look for NaNs besides, which is half as much again.
+RG_FN float lesser(float a, float b) { return a < b ? a : b; }
+RG_FN float greater(float a, float b) { return a > b ? a : b; }
 
 // Exact, as all that a flux hangs on: both sides of a face work it out for themselves, on a GPU in other kernels' code, and must agree to the picolitre.
 RG_FN float thickness_m(int volume_pl, RG_IN(vec4) metric) {
@@ -92,7 +95,7 @@ RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) { return fallingVelocity(h
 // so fast, the other way, each neighbour gets this much more. Ripples die where that, times h, rises with h as fast as q does there (as Engquist &
 // Osher 1981, Math. Comput. 36, split q): 0.6 (3 fallen - 4/3 blown) is no less, and above it need not fall.
 RG_FN float counterflow(float fallen, float blown) {
-  RG_EXACT float b = abs(blown), up = abs(fallen) - (2.0f / 3.0f) * b, down = b * (1.0f / 3.0f), more = 0.6f * max(min(up, down), 0.0f);
+  RG_EXACT float b = abs(blown), up = abs(fallen) - (2.0f / 3.0f) * b, down = b * (1.0f / 3.0f), more = 0.6f * greater(lesser(up, down), 0.0f);
   return fallen * blown < 0.0f ? more : 0.0f;
 }
 
@@ -103,8 +106,8 @@ RG_CONST float kFastest_cells = 7.0f / 8.0f;
 // courant ~ V^2, goes on along its tangent: by i^2 (3 - 2 i), i^2 being the part that would keep waves to the fastest. Less than half a cell,
 // so that with four eighths of levelling and roundings nothing gives more than it has.
 RG_FN float keptToOneCell(float courant) {
-  RG_EXACT float i = 1.0f / max(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
-  RG_EXACT float tangent = 3.0f - 2.0f * i, share = i * i * min(tangent, 1.48f / kFastest_cells);
+  RG_EXACT float i = 1.0f / greater(sqrt((3.0f / kFastest_cells) * courant), 1.0f);
+  RG_EXACT float tangent = 3.0f - 2.0f * i, share = i * i * lesser(tangent, 1.48f / kFastest_cells);
   return share;
 }
 
@@ -166,20 +169,18 @@ RG_FN FilmCell filmCell(int volume_pl, RG_IN(FilmAround) around, int glass, RG_I
   cell.entry_m = volume_pl < 0 || wet || 2.0f * thickness_m(around.gap_pl, metric) >= front_m ? 0.0f : front_m;
   RG_EXACT vec2 fallen = fallingVelocity(cell.h_m, drive), blown = blownVelocity(cell.h_m, drive), straight = fallen + blown;
   RG_EXACT vec2 u = thickness_m(around.least_pl, metric) < info.pin_m ? turned(straight, kMostTurn * unevenness(glass)) : straight;
-  // What is not wet goes nowhere.
-  RG_EXACT float per_cells = volume_pl > 0 && wet ? kFilmStep_s / (metric.x * metric.y) : 0.0f;
-  RG_EXACT float x_cells = metric.y * per_cells, y_cells = metric.x * per_cells, cx = u.x * x_cells, cy = u.y * y_cells;
-  RG_EXACT float cx_both = counterflow(fallen.x, blown.x) * x_cells, cy_both = counterflow(fallen.y, blown.y) * y_cells;
+  RG_EXACT float cx = u.x * metric.x, cy = u.y * metric.y;
+  RG_EXACT float cx_both = counterflow(fallen.x, blown.x) * metric.x, cy_both = counterflow(fallen.y, blown.y) * metric.y;
   RG_EXACT float courant = abs(cx) + abs(cy) + 2.0f * (cx_both + cy_both);
-  RG_EXACT float slack = 1.0f - min(3.0f * courant, kFastest_cells);
+  RG_EXACT float slack = 1.0f - lesser(3.0f * courant, kFastest_cells);
   cell.slack = slack;
   RG_EXACT float hollowness = kTension_m3 * metric.z * metric.z * float(around.hollow_pl);
   cell.hollowness = hollowness;
-  RG_EXACT float scale = float(volume_pl) * keptToOneCell(courant);
+  // What is not wet goes nowhere.
+  RG_EXACT float scale = volume_pl > 0 && wet ? float(volume_pl) * keptToOneCell(courant) : 0.0f;
   RG_EXACT float x_wish = cx * scale + 0.5f, y_wish = cy * scale + 0.5f;
   cell.x_pl = int(floor(x_wish));
   cell.y_pl = int(floor(y_wish));
-  cell.mainly_pl = float(max(abs(cell.x_pl), abs(cell.y_pl)));
   cell.x_both_pl = int(cx_both * scale);
   cell.y_both_pl = int(cy_both * scale);
   return cell;
@@ -193,16 +194,16 @@ RG_FN float rounding(RG_IN(FilmStepInfo) info) { return unitFloat(pcg(info.step)
 // they. Never more than an eighth of what is there.
 RG_FN int levelled_pl(RG_IN(FilmCell) a, RG_IN(FilmCell) b, RG_IN(FilmStepInfo) info) {
   RG_EXACT float cube_m3 = a.h_m * b.h_m * (0.5f * (a.h_m + b.h_m));
-  float slack = min(a.slack, b.slack);
-  RG_EXACT float by_weight = min(cube_m3, slack * info.heavy_m3) * (info.weight_pl_m4 * (a.h_m - b.h_m));
-  RG_EXACT float flow = by_weight - min(cube_m3, slack * info.tense_m3) * (a.hollowness - b.hollowness);
+  float slack = lesser(a.slack, b.slack);
+  RG_EXACT float by_weight = lesser(cube_m3, slack * info.heavy_m3) * (info.weight_pl_m4 * (a.h_m - b.h_m));
+  RG_EXACT float flow = by_weight - lesser(cube_m3, slack * info.tense_m3) * (a.hollowness - b.hollowness);
   int size = min(int(abs(flow) + rounding(info)), (flow > 0.0f ? a.volume_pl : b.volume_pl) >> 3);
   return flow > 0.0f ? size : -size;
 }
 
 // Whether it overcomes what holds the contact line that lies between: what drives the film is as its thickness, and but a part of it goes that way.
 RG_FN bool enters(RG_IN(FilmCell) from, int along_pl, RG_IN(FilmCell) to) {
-  RG_EXACT float drives = from.h_m * float(abs(along_pl)), holds = to.entry_m * from.mainly_pl;
+  RG_EXACT float drives = from.h_m * float(abs(along_pl)), holds = to.entry_m * greater(float(abs(from.x_pl)), float(abs(from.y_pl)));
   return drives >= holds;
 }
 
@@ -238,7 +239,7 @@ RG_FN int driedOfBeads_pl(RG_IN(Beads) beads, uint texel, RG_IN(FilmStepInfo) in
 struct FilmTexel {
   int film_pl; // -1: off the pane
   Beads beads;
-  int gone_pl; // evaporated, or offered to the drops: of the beads where there are any
+  int gone_pl; // evaporated; or of what lies there some is too much, and offered to the drops, see offered_pl
   int stirs;   // 1: not to fall asleep
 };
 
@@ -296,11 +297,15 @@ RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, RG_IN(vec4) metric, RG_
   t.beads.volume_pl = joins ? 0 : lying.volume_pl;
   t.beads.number = joins ? 0 : number;
   float h_m = thickness_m(t.film_pl, metric);
-  int too_much_pl = t.film_pl - int(kOverfull_m / (metric.z * kPicolitre_m3));
   bool overfull = h_m > kOverfull_m, too_large = t.beads.number > 0 && (alone || t.beads.volume_pl > t.beads.number * info.most_bead_pl);
   t.stirs = int(too_large || h_m >= info.pin_m);
-  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? too_much_pl : too_large ? meanBead_pl(t.beads) : 0;
+  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? t.film_pl : too_large ? t.beads.volume_pl : 0;
   return t;
+}
+// What one that has gone_pl offers: a bead, or what is over the thickest film.
+RG_FN int offered_pl(RG_IN(FilmTexel) texel, float per_m2) {
+  int most_pl = int(kOverfull_m / (per_m2 * kPicolitre_m3));
+  return texel.beads.number > 0 ? meanBead_pl(texel.beads) : max(texel.film_pl - most_pl, 1);
 }
 // ... and after its tile's offer has gone to the drops.
 RG_FN FilmTexel without(RG_IN(FilmTexel) texel, int given_pl) {

@@ -24,6 +24,11 @@ inline shared::FilmStepInfo uncoated() {
   info.drops_allowed = 1;
   return info;
 }
-inline const shared::vec4 kTexel(3e-3f, 3e-3f, 1.0f / 9e-6f, 0.0f);
+// Of PaneMap::nodeMetric().
+inline shared::vec4 squareTexel(float side_m) {
+  const float per_step = shared::kFilmStep_s / side_m;
+  return {per_step, per_step, 1.0f / (side_m * side_m), 0.0f};
+}
+inline const shared::vec4 kTexel = squareTexel(3e-3f);
 
 }  // namespace rg::test

@@ -72,9 +72,12 @@ TEST(Beads, everyStepKeepsTheVolume) {
     ASSERT_GE(t.film_pl, 0);
     ASSERT_EQ(t.beads.number > 0, t.beads.volume_pl > 0);
     ASSERT_LE(t.beads.number, shared::kMostBeads);
-    const shared::FilmTexel left = shared::without(t, t.gone_pl);
+    const int given_pl = t.gone_pl > 0 ? shared::offered_pl(t, kTexel.z) : 0;
+    ASSERT_EQ(given_pl > 0, t.gone_pl > 0);
+    ASSERT_LE(given_pl, t.gone_pl);
+    const shared::FilmTexel left = shared::without(t, given_pl);
     ASSERT_EQ(int64_t{left.film_pl} + left.beads.volume_pl,
-              int64_t{t.film_pl} + t.beads.volume_pl - t.gone_pl);
+              int64_t{t.film_pl} + t.beads.volume_pl - given_pl);
     ASSERT_EQ(left.beads.number > 0, left.beads.volume_pl > 0);
     const int taken = shared::shareOf(t.beads.volume_pl, static_cast<int>(h.x % 65537));
     const Beads rest = shared::withoutPart(t.beads, taken);
@@ -104,7 +107,7 @@ TEST(Beads, crowdedOnesRunTogether) {
     if (t.gone_pl == 0)
       EXPECT_LE(share, static_cast<double>(shared::kCrowded) * 1.001) << volume_pl;
     else
-      EXPECT_EQ(t.gone_pl, volume_pl);
+      EXPECT_EQ(shared::offered_pl(t, kTexel.z), volume_pl);
     // One more would not have room.
     if (t.beads.number > 1 && t.beads.number < 64) {
       EXPECT_GT(share * std::cbrt(static_cast<double>(t.beads.number + 1) / t.beads.number),
@@ -244,16 +247,17 @@ TEST(Beads, theLargestRestOnAnUprightPane) {
 // What wind and weight may move is no bead.
 TEST(Beads, tooLargeOnesAreOfferedOneByOne) {
   const shared::FilmStepInfo info = uncoated();
-  const shared::vec4 coarse(9e-3f, 9e-3f, 1.0f / 81e-6f, 0.0f);  // whose crowd would leave room for more
+  const shared::vec4 coarse = squareTexel(9e-3f);  // whose crowd would leave room for more
   for (const int number : {1, 2, 5}) {
     const int few = number * info.most_bead_pl;
     EXPECT_EQ(shared::settled(0, beads(few, number), coarse, info).gone_pl, 0);
     const shared::FilmTexel more = shared::settled(0, beads(few + number, number), coarse, info);
-    EXPECT_EQ(more.gone_pl, info.most_bead_pl + 1);
+    EXPECT_EQ(more.gone_pl, few + number);
+    EXPECT_EQ(shared::offered_pl(more, coarse.z), info.most_bead_pl + 1);
     EXPECT_EQ(more.stirs, 1);
-    const shared::FilmTexel left = shared::without(more, more.gone_pl);
+    const shared::FilmTexel left = shared::without(more, info.most_bead_pl + 1);
     EXPECT_EQ(left.beads.number, number - 1);
-    EXPECT_EQ(left.beads.volume_pl, few + number - more.gone_pl);
+    EXPECT_EQ(left.beads.volume_pl, few + number - (info.most_bead_pl + 1));
   }
 }
 
@@ -262,7 +266,7 @@ TEST(Beads, tooLargeOnesAreOfferedOneByOne) {
 TEST(Beads, aFilmThatBreaksLeavesNoneThatIsTooLarge) {
   shared::FilmStepInfo info = uncoated();
   info.rupture_chance = 1.0f;
-  const shared::vec4 coarse(5e-3f, 5e-3f, 1.0f / 25e-6f, 0.0f);
+  const shared::vec4 coarse = squareTexel(5e-3f);
   int broken = 0;
   for (uint32_t texel = 0; texel < 3000; ++texel) {
     const uint32_t h = shared::pcg(texel);

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "beads.h"
 #include "film_reference.h"
 #include "gl/loader.h"
 #include "gl_fixture.h"
@@ -293,7 +294,7 @@ TEST(FilmLaw, filmsThatLieStillCloseNoFront) {
     shared::FilmStepInfo info{};
     info.pin_m = pin_m;
     info.front_m = static_cast<float>(surface.front_m);
-    const shared::vec4 metric(3e-3f, 3e-3f, 1.0f / 9e-6f, 0.0f);
+    const shared::vec4 metric = squareTexel(3e-3f);
     const int still_pl = static_cast<int>(0.999 * surface.pin_m * 9e-6 * 1e15);
     for (int level = 0; level <= shared::kMostUneven; ++level) {
       const shared::FilmAround around = shared::filmAround(0, still_pl, still_pl, still_pl, still_pl);
@@ -315,7 +316,7 @@ TEST(FilmLaw, giveAndTakeAgreeAtEveryFace) {
   shared::FilmStepInfo info{};
   info.pin_m = 3e-6f;
   info.front_m = 40e-6f;
-  const shared::vec4 metric(3e-3f, 3e-3f, 1.0f / 9e-6f, 0.0f);
+  const shared::vec4 metric = squareTexel(3e-3f);
   for (uint32_t i = 0; i < 10000; ++i) {
     const glm::uvec3 h = shared::pcg3d({i, 1u, 2u});
     const shared::vec4 drive(shared::unitFloat(h.x) * 20.0f - 10.0f, 3.0f, shared::unitFloat(h.y) - 0.5f,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "glass/water.h"
+#include "shared/glass_film.glsl"
 
 namespace rg::glass {
 
@@ -71,7 +72,8 @@ struct InTile {
     return glm::mix(glm::mix(low[0], low[1], f.x), glm::mix(high[0], high[1], f.x), f.y);
   }
   glm::dvec2 metres(const PaneMap& map) const {
-    return glm::dvec2(shared::xy(mix(map.nodeMetric()))) / map.grid().texel_m;
+    return static_cast<double>(shared::kFilmStep_s) / map.grid().texel_m /
+           glm::dvec2(shared::xy(mix(map.nodeMetric())));
   }
 };
 

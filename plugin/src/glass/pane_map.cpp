@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "glass/chart.h"
+#include "shared/glass_film.glsl"
 
 namespace rg::glass {
 namespace {
@@ -249,8 +250,9 @@ void PaneMap::makeNodes() {
     node.across = std::clamp((2.0 * glass.x - (glass_low.x + glass_high.x)) / glass_extent_m_.x, -1.0, 1.0);
     node.height = std::clamp((glass.y - glass_low.y) / glass_extent_m_.y, 0.0, 1.0);
     const double area = glm::length(glm::cross(node.along_x, node.along_y)) * grid_.texel_m * grid_.texel_m;
-    node_metric_.emplace_back(static_cast<float>(glm::length(node.along_x) * grid_.texel_m),
-                              static_cast<float>(glm::length(node.along_y) * grid_.texel_m),
+    const double step_s = static_cast<double>(shared::kFilmStep_s);
+    node_metric_.emplace_back(static_cast<float>(step_s / (glm::length(node.along_x) * grid_.texel_m)),
+                              static_cast<float>(step_s / (glm::length(node.along_y) * grid_.texel_m)),
                               static_cast<float>(1.0 / area), 0.0f);
   }
 }

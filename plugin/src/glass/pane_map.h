@@ -131,7 +131,7 @@ class PaneMap {
   const std::vector<PaneNode>& nodes() const { return nodes_; }
   const std::vector<shared::vec4>& nodeMetric() const {
     return node_metric_;
-  }                                // metres for a texel along x, y; 1/area in 1/m^2; 0
+  }  // how many texels 1 m/s goes along x, y in a step of the film; 1/area in 1/m^2; 0
   size_t tileOf(int index) const;  // of a texel
   const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }  // of what is shown
 
