@@ -43,12 +43,21 @@ RG_FN float cubeRoot(float x) {
   return root;
 }
 
-// Of each, if all are alike, in whole picolitres. Software GL divides floats eight at a time, integers one by one; a GPU's quotient may be off by
-// one, which is mended.
-RG_FN int meanBead_pl(RG_IN(Beads) beads) {
-  int number = max(beads.number, 1), mean = int(float(beads.volume_pl) / float(number)), rest = beads.volume_pl - mean * number;
-  return mean + int(rest >= number) - int(rest < 0);
+// a / b in whole numbers, exactly where it is below 2^20: a < 2^32, 0 < b < 2^30. Software GL divides floats eight at a time, integers one by one;
+// floats' quotient, a GPU's too, is off by one at most, which is mended.
+RG_FN int quotient(uint a, int b) {
+  int whole = int((float(int(a >> 1u)) + 0.25f) / float(b) * 2.0f), rest = int(a - uint(whole) * uint(b));
+  return whole + int(rest >= b) - int(rest < 0);
 }
+
+// By chance a whole number from 0, below `end`.
+RG_FN int upTo(int end, uint chance) {
+  RG_EXACT float at = unitFloat(chance) * float(end);
+  return min(int(at), end - 1);
+}
+
+// Of each, if all are alike, in whole picolitres.
+RG_FN int meanBead_pl(RG_IN(Beads) beads) { return quotient(uint(beads.volume_pl), max(beads.number, 1)); }
 
 // Radius of the base of beads of the same volume each. `mm3_per_pl`: the cube of that of a picolitre, by the contact angle: V = R^3 capShape
 // (glass/water.h).
@@ -64,14 +73,15 @@ RG_FN float beadsCovering(int volume_pl, float share, float mm3_per_pl, float pe
 
 // Of how many equal beads the water of two kinds is, so that a picolitre finds itself in a bead as large as before in the mean: as many as both where
 // they are alike; but a large drop's water is not shared out among the mist that it falls into. With p the second's share of the volume, 1 / number is
-// p^2 / number_b + (1 - p)^2 / number_a. In whole 128ths, which divide alike everywhere: all is below 2^32.
+// p^2 / number_b + (1 - p)^2 / number_a. In whole 128ths, which come out alike everywhere.
 // Both are rounded by chance, so that they are right in the mean: else a lone bead would stay one whatever small ones came to it one by one. The
 // volumes choose.
 RG_FN int numberOfBoth(RG_IN(Beads) a, int b_pl, int b_number) {
-  uint chance = pcg(uint(a.volume_pl) ^ pcg(uint(b_pl))), whole_pl = uint(max(a.volume_pl + b_pl, 1));
-  uint p = ((uint(b_pl) << 7u) + chance % whole_pl) / whole_pl, rest = 128u - p;
-  uint n = uint(max(a.number, 1)), m = uint(b_number), parts = p * p * n + rest * rest * m;
-  return a.number == 0 ? min(b_number, kMostBeads) : clamp(int((((n * m) << 14u) + pcg(chance) % parts) / parts), 1, kMostBeads);
+  uint chance = pcg(uint(a.volume_pl) ^ pcg(uint(b_pl)));
+  int whole_pl = max(a.volume_pl + b_pl, 1), p = quotient((uint(b_pl) << 7u) + uint(upTo(whole_pl, chance)), whole_pl), rest = 128 - p;
+  int n = max(a.number, 1), parts = p * p * n + rest * rest * b_number;
+  int both = quotient(uint(((n * b_number) << 14) + upTo(parts, pcg(chance))), parts);
+  return a.number == 0 ? min(b_number, kMostBeads) : clamp(both, 1, kMostBeads);
 }
 
 // As they come to others. What is too much for the store goes to the film.
@@ -89,7 +99,7 @@ RG_FN Beads withoutPart(RG_IN(Beads) beads, int taken_pl) {
   Beads rest;
   rest.volume_pl = beads.volume_pl - taken_pl;
   int whole_pl = max(beads.volume_pl, 1);  // numbers up to 2^6 times volumes below 2^24
-  rest.number = rest.volume_pl <= 0 ? 0 : max(1, (beads.number * rest.volume_pl + whole_pl / 2) / whole_pl);
+  rest.number = rest.volume_pl <= 0 ? 0 : max(1, quotient(uint(beads.number * rest.volume_pl + (whole_pl >> 1)), whole_pl));
   return rest;
 }
 

@@ -275,7 +275,7 @@ RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) m
   Beads more = joinedBy(t.beads, t.film_pl, of_film, surplus_pl);
   more.number = min(more.number, max(of_film, t.beads.number));
   // None of them too large at once: what dries is left as settled() leaves it, and may sleep on.
-  int most_pl = max(info.most_bead_pl, 1), least = (more.volume_pl + most_pl - 1) / most_pl;
+  int most_pl = max(info.most_bead_pl, 1), least = quotient(uint(more.volume_pl + most_pl - 1), most_pl);
   int number = int(min(float(max(more.number, least)), beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z)));
   bool breaks = breaksUp(h_m, texel, info) && number >= max(least, 1);
   t.film_pl = breaks ? surplus_pl : t.film_pl;
