@@ -31,12 +31,10 @@ Left dryStrips(int tile, int lane, bool asleep) {
     int texel = (corner.y * kTileSize + row) * info.columns + corner.x * kTileSize + column * kStripSize;
     ivec4 was = imageLoad(before, strip);
     uvec4 had = imageLoad(lying, strip);
+    vec4 here = betweenNodes(m[0], m[1], m[2], m[3], vec2(placeAcross(column * kStripSize), placeUp(row)));
     int film_pl[kStripSize];
     uint has[kStripSize];
     for (int k = 0; k < kStripSize; ++k) {
-      vec2 f = (vec2(column * kStripSize + k, row) + 0.5) / float(kTileSize);
-      // As the flow has it: along rows first.
-      vec4 here = between(between(m[0], m[1], f.x), between(m[2], m[3], f.x), f.y);
       FilmTexel left = dried(was[k], beadsOf(had[k]), uint(texel + k), here, info);
       sums.dried_pl += left.gone_pl;
       uint whole = uint(max(left.film_pl, 0));

@@ -31,7 +31,7 @@ struct Walk {
 const int kStirs = 8, kFilm = 9, kBeads = 10, kGives = 11, kTold = 12;
 shared int told[kTold * kGroup];
 
-// Fields at a place, at a tile's corners, and along a column of it: at its lower and its upper edge.
+// Fields at a place, at a tile's corners, and along a column of strips: at its lower and its upper edge.
 struct Field { vec4 metric, drive; };
 struct Corners { Field low_left, low_right, high_left, high_right; };
 struct Column { Field low, high; };
@@ -43,15 +43,12 @@ Corners cornersOf(int x, int y) {
   return Corners(atCorner(low), atCorner(low + 1), atCorner(high), atCorner(high + 1));
 }
 
-// A texel's place between the edges of its tile.
-float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
-
 Field between(Field a, Field b, float f) { return Field(between(a.metric, b.metric, f), between(a.drive, b.drive, f)); }
 Column columnOf(Corners c, int x) {
-  float f = fraction(x);
+  float f = placeAcross(x);
   return Column(between(c.low_left, c.low_right, f), between(c.high_left, c.high_right, f));
 }
-Field fieldAt(Column column, int y) { return between(column.low, column.high, fraction(y)); }
+Field fieldAt(Column column, int y) { return between(column.low, column.high, placeUp(y)); }
 
 FilmCell cellOf(Field field, int volume_pl, FilmAround around, int level, FilmStepInfo step) {
   return filmCell(volume_pl, around, level, field.drive, field.metric, step);
@@ -134,8 +131,8 @@ Walk walk(ivec2 tile, int lane) {
 
   Corners own = cornersOf(x, y), below = cornersOf(x, y - 1), above = cornersOf(x, y + kWalkRows);
   Column left_column = columnOf(cornersOf(x - 1, y), x - 1), right_column = columnOf(cornersOf(x + kColumns, y), x + kColumns);
-  Column columns[kColumns];
-  vec4 metric_here[kColumns];
+  Column columns[kWalkStrips];
+  vec4 metric_here[kWalkStrips];
   FilmCell me[kColumns];
   int from_below[kColumns];
   // The rows below, here and above; of the two beyond only what lies in the own columns.
@@ -144,9 +141,10 @@ Walk walk(ivec2 tile, int lane) {
   for (int k = 0; k < kColumns; ++k) {
     FilmCell behind = cellOf(fieldAt(columnOf(below, x + k), y - 1), last.at[k + 2], aroundOf(last, k, beneath.at[k + 2], here.at[k + 2]),
                              levelAt(glass_last, k), step);
-    columns[k] = columnOf(own, x + k);
-    Field field = fieldAt(columns[k], y);
-    metric_here[k] = field.metric;
+    int s = k / kStripSize;
+    columns[s] = columnOf(own, x + k);
+    Field field = fieldAt(columns[s], y);
+    metric_here[s] = field.metric;
     me[k] = cellOf(field, here.at[k + 2], aroundOf(here, k, last.at[k + 2], ahead.at[k + 2]), levelAt(glass_here, k), step);
     from_below[k] = flowBetween_pl(behind, behind.y_pl, behind.y_both_pl, me[k], me[k].y_pl, me[k].y_both_pl, step);
   }
@@ -174,7 +172,8 @@ Walk walk(ivec2 tile, int lane) {
       for (int k = 0; k < kColumns; ++k) {
         FilmCell beside = k + 1 < kColumns ? me[(k + 1) % kColumns] : right;
         int to_right = flowBetween_pl(me[k], me[k].x_pl, me[k].x_both_pl, beside, beside.x_pl, beside.x_both_pl, step);
-        Field field = fieldAt(columns[k], y + 1);
+        int s = k / kStripSize;
+        Field field = fieldAt(columns[s], y + 1);
         FilmCell next = cellOf(field, ahead.at[k + 2], aroundOf(ahead, k, here.at[k + 2], beyond.at[k + 2]), levelAt(glass_ahead, k), step);
         int to_next = flowBetween_pl(me[k], me[k].y_pl, me[k].y_both_pl, next, next.y_pl, next.y_both_pl, step);
 
@@ -185,7 +184,7 @@ Walk walk(ivec2 tile, int lane) {
         over_above += ahead.at[k + 2] < 0 ? to_next : 0;
 
         int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_below[k]) - to_next;
-        FilmTexel now = settled(here.at[k + 2] < 0 ? -1 : volume, beadsOf(lay.of[k]), metric_here[k], step);
+        FilmTexel now = settled(here.at[k + 2] < 0 ? -1 : volume, beadsOf(lay.of[k]), metric_here[s], step);
         now.beads.volume_pl = passed(kBead, now.beads.volume_pl);
         see(now, at + k, seen);
         // Asleep next time only if neighbours, too, have seen it lie still.
@@ -196,7 +195,7 @@ Walk walk(ivec2 tile, int lane) {
         from_left = to_right;
         from_below[k] = to_next;
         me[k] = next;
-        metric_here[k] = field.metric;
+        if (k % kStripSize == kStripSize - 1) metric_here[s] = field.metric;
       }
       put(strip, after_pl, lay, lie);
       last = here;
@@ -207,7 +206,7 @@ Walk walk(ivec2 tile, int lane) {
       strip += across;
       at += kTileSize;
     } while (--rows > 0);
-    for (int k = 0; k < kColumns; ++k) columns[k] = columnOf(above, x + k);
+    for (int s = 0; s < kWalkStrips; ++s) columns[s] = columnOf(above, x + s * kStripSize);
   } while (++part < 2);
   leavePane(over_left, vec2(-1.0, 0.0), seen);
   leavePane(over_right, vec2(1.0, 0.0), seen);

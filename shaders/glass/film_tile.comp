@@ -24,9 +24,6 @@ ivec2 tiles() { return ivec2(gl_NumWorkGroups.x, (uint(info.rows) + uint(kTileSi
 int texelOf(ivec2 at) { return (tile().y * kTileSize + at.y) * info.columns + tile().x * kTileSize + at.x; }
 int placeIn(ivec2 at) { return ((tile().y * kTileSize + at.y) * tiles().x + tile().x) * kTileSize + at.x; }
 
-// A texel's place between the edges of its tile.
-float fraction(int at) { return (float(at & (kTileSize - 1)) + 0.5) / float(kTileSize); }
-
 // The tile's film and two texels about it, row by row from below.
 const int kAbout = 2, kSeenRow = kTileSize + 2 * kAbout;
 shared int film[kSeenRow * kSeenRow];
@@ -113,7 +110,7 @@ void load(int t) {
 }
 
 int nodeAt(ivec2 at) { return ((at.y >> 4) + 1) * kNodes + (at.x >> 4) + 1; }
-vec2 betweenNodesAt(ivec2 at) { return vec2(fraction(at.x), fraction(at.y)); }
+vec2 betweenNodesAt(ivec2 at) { return vec2(placeAcross(at.x), placeUp(at.y)); }
 vec4 metricAt(ivec2 at) {
   int k = nodeAt(at);
   return betweenNodes(node_metric[k], node_metric[k + 1], node_metric[k + kNodes], node_metric[k + kNodes + 1], betweenNodesAt(at));

@@ -79,6 +79,11 @@ RG_FN vec4 betweenNodes(RG_IN(vec4) a, RG_IN(vec4) b, RG_IN(vec4) c, RG_IN(vec4)
   return between(between(a, b, f.x), between(c, d, f.x), f.y);
 }
 
+// Where between the edges of its tile a texel's fields are asked for. Half way up it; but along a row once for a strip of texels, which differ by
+// an eighth of what a tile's edges do at most. A strip's mirror image is a strip, so that what is mirrored flows alike.
+RG_FN float placeAcross(int x) { return (float(x & (kTileSize - kStripSize)) + 0.5f * float(kStripSize)) / float(kTileSize); }
+RG_FN float placeUp(int y) { return (float(y & (kTileSize - 1)) + 0.5f) / float(kTileSize); }
+
 // Mean velocity q / h of a film: Nusselt 1916, q = rho g h^3 / (3 mu), and a wind's shear on its surface, q = tau h^2 / (2 mu).
 RG_FN vec2 fallingVelocity(float h_m, RG_IN(vec4) drive) {
   RG_EXACT vec2 u = vec2(drive.x, drive.y) * (kNusselt_per_m_s * h_m * h_m);

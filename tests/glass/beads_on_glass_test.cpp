@@ -273,18 +273,28 @@ TEST_F(BeadsOnGlass, aDropThatSlidesClearsItsWholeWidth) {
   EXPECT_NEAR(lyingBy(12e-3, 30e-3) / far_before, 1.0, 0.02);
 }
 
-// At 100 mm/h and 100 km/h slots suffice.
+// At 100 mm/h and 100 km/h slots suffice: most are wanted in the second before the first drops run off, then
+// three quarters. How many there are at a moment goes up and down by some hundreds.
 TEST_F(BeadsOnGlass, slotsSufficeInADownpourAtSpeed) {
   const Mesh mesh = windscreen(0.75, 0.8, rad(30), 0.03);
   glass::PaneInfo info = paneInfo(mesh);
   info.max_drops = 10000;  // half a windscreen, half the slots
   Simulation sim(gl, info);
-  sim.run(weather(100.0, 27.8, 0.9), 6.0);
+  constexpr int kLooks = 32;
+  uint32_t most = 0;
+  double mean = 0.0;
+  for (int look = 0; look < kLooks; ++look) {
+    sim.run(weather(100.0, 27.8, 0.9), 0.25);
+    const uint32_t drops = sim.stats().drops;
+    most = std::max(most, drops);
+    if (look >= kLooks / 2) mean += 2.0 * drops / kLooks;
+  }
   const glass::PaneStats s = sim.stats();
-  std::printf("drops %u, beads %.1f mL, drops %.1f mL, film %.1f mL of %.1f mL caught\n", s.drops,
-              1e-9 * static_cast<double>(s.beads_pl), 1e-9 * static_cast<double>(s.drops_pl),
+  std::printf("drops %.0f, once %u, beads %.1f mL, drops %.1f mL, film %.1f mL of %.1f mL caught\n", mean,
+              most, 1e-9 * static_cast<double>(s.beads_pl), 1e-9 * static_cast<double>(s.drops_pl),
               1e-9 * static_cast<double>(s.film_pl), 1e-9 * static_cast<double>(s.caught_pl));
-  EXPECT_LT(s.drops, 7500u);
+  EXPECT_LT(most, info.max_drops);
+  EXPECT_LT(mean, 7500.0);
   EXPECT_EQ(s.caught_pl, sumOf(s));
 }
 

@@ -101,9 +101,8 @@ class FilmReference {
     const int across = map_.nodeCount().x;
     const size_t n = static_cast<size_t>(y / shared::kTileSize * across + x / shared::kTileSize),
                  m = n + static_cast<size_t>(across);
-    const glm::vec2 f = (glm::vec2(x % shared::kTileSize, y % shared::kTileSize) + 0.5f) /
-                        static_cast<float>(shared::kTileSize);
-    return shared::betweenNodes(nodes[n], nodes[n + 1], nodes[m], nodes[m + 1], f);
+    return shared::betweenNodes(nodes[n], nodes[n + 1], nodes[m], nodes[m + 1],
+                                {shared::placeAcross(x), shared::placeUp(y)});
   }
 
   void step(const glass::FilmOrder& order, glass::FilmReport& report) {
