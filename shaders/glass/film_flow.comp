@@ -135,6 +135,8 @@ Walk walk(ivec2 tile, int lane) {
   vec4 metric_here[kWalkStrips];
   FilmCell me[kColumns];
   int from_below[kColumns];
+  // Over the pane's edges.
+  int over_left = 0, over_right = 0, over_below = 0, over_above = 0;
   // The rows below, here and above; of the two beyond only what lies in the own columns.
   Row beneath = rowOf(strip - 2 * across), last = rowOf(strip - across), here = rowOf(strip), ahead = rowOf(strip + across);
   Glass glass_last = glassOf(strip - across), glass_here = glassOf(strip);
@@ -147,10 +149,9 @@ Walk walk(ivec2 tile, int lane) {
     metric_here[s] = field.metric;
     me[k] = cellOf(field, here.at[k + 2], aroundOf(here, k, last.at[k + 2], ahead.at[k + 2]), levelAt(glass_here, k), step);
     from_below[k] = flowBetween_pl(behind, behind.y_pl, behind.y_both_pl, me[k], me[k].y_pl, me[k].y_both_pl, step);
+    over_below -= last.at[k + 2] < 0 ? from_below[k] : 0;
   }
 
-  // Over the pane's edges.
-  int over_left = 0, over_right = 0, over_below = 0, over_above = 0;
   Walk seen = Walk(0, 0, 0, 0, 0, 0, 0, 0);
   // Before the last row it changes to the columns of the row above.
   int part = 0;
@@ -180,8 +181,8 @@ Walk walk(ivec2 tile, int lane) {
         // Nothing passes between two that are off the pane.
         over_left -= here.at[k + 1] < 0 ? from_left : 0;
         over_right += here.at[k + 3] < 0 ? to_right : 0;
-        over_below -= last.at[k + 2] < 0 ? from_below[k] : 0;
         over_above += ahead.at[k + 2] < 0 ? to_next : 0;
+        over_below -= here.at[k + 2] < 0 && part == 0 ? to_next : 0; // into the row above, where it is the walk's
 
         int volume = me[k].volume_pl + passed(kFlow, from_left) - to_right + passed(kFlow, from_below[k]) - to_next;
         FilmTexel now = settled(here.at[k + 2] < 0 ? -1 : volume, beadsOf(lay.of[k]), metric_here[s], step);

@@ -7,7 +7,9 @@ layout(std430, binding = 4) buffer Awake {
   int listed[];                   // those awake, and from `count` on those that dry: -1 - tile where it sleeps from now on
 };
 
-AwakeTiles groupsUpTo(uint group) { return AwakeTiles(min(group + 1u, kGroupsInRow), group / kGroupsInRow + 1u, 1u, 0u); }
+// Of the group's tiles: how many go into each list, and where its part of that begins. Threads that all count in one place wait for each other.
+const int kAwake = 0, kDries = 1;
+shared uint number[2], first[2];
 
 bool stirs(ivec2 tile) { return states[tile.y * tilesAcross() + tile.x].stirs[turn] != 0; }
 
@@ -17,26 +19,38 @@ bool wakes(int t) {
          stirs(ivec2(tile.x, max(tile.y - 1, 0))) || stirs(ivec2(tile.x, min(tile.y + 1, last.y)));
 }
 
+uint groupsOf(uint items, uint each) { return (items + each - 1u) / each; }
+
+void claim() {
+  first[kAwake] = atomicAdd(awake[turn].number, number[kAwake]);
+  first[kDries] = atomicAdd(drying[turn].number, number[kDries]);
+  uint awake_groups = groupsOf(first[kAwake] + number[kAwake], uint(kTilesInGroup)), drying_groups = groupsOf(first[kDries] + number[kDries], uint(kTilesInDryGroup));
+  atomicMax(awake[turn].groups_x, min(awake_groups, kGroupsInRow));
+  atomicMax(awake[turn].groups_y, groupsOf(awake_groups, kGroupsInRow));
+  atomicMax(drying[turn].groups_x, min(drying_groups, kGroupsInRow));
+  atomicMax(drying[turn].groups_y, groupsOf(drying_groups, kGroupsInRow));
+}
+
 void main() {
   int t = int(gl_GlobalInvocationID.x);
+  bool leads = gl_LocalInvocationIndex == 0u;
   if (t == 0) awake[1 - turn] = drying[1 - turn] = AwakeTiles(0u, 1u, 1u, 0u);
-  if (t >= count) return;
-  bool now = wakes(t), looked_at = now || states[t].awake != 0;
-  states[t].awake = int(now);
+  if (leads) number = uint[2](0u, 0u);
+  barrier();
+  bool here = t < count, now = here && wakes(t), looked_at = now || (here && states[t].awake != 0);
   // Of what came to it in this step its state does not know yet.
-  if (driesNow(uint(t), info) && (looked_at || (states[t].lies[0] | states[t].lies[1] | states[t].lies[2]) != 0)) {
-    uint place = atomicAdd(drying[turn].number, 1u);
-    listed[uint(count) + place] = now ? t : -1 - t;
-    AwakeTiles groups = groupsUpTo(place / uint(kTilesInDryGroup));
-    atomicMax(drying[turn].groups_x, groups.groups_x);
-    atomicMax(drying[turn].groups_y, groups.groups_y);
-  }
+  bool dries = here && driesNow(uint(t), info) && (looked_at || (states[t].lies[0] | states[t].lies[1] | states[t].lies[2]) != 0);
+  uint place = 0u, place_dries = 0u;
+  if (looked_at) place = atomicAdd(number[kAwake], 1u);
+  if (dries) place_dries = atomicAdd(number[kDries], 1u);
+  barrier();
+  if (leads) claim();
+  barrier();
+  if (!here) return;
+  states[t].awake = int(now);
+  if (dries) listed[uint(count) + first[kDries] + place_dries] = now ? t : -1 - t;
   if (looked_at) {
-    uint place = atomicAdd(awake[turn].number, 1u);
-    listed[place] = t;
-    AwakeTiles groups = groupsUpTo(place / uint(kTilesInGroup));
-    atomicMax(awake[turn].groups_x, groups.groups_x);
-    atomicMax(awake[turn].groups_y, groups.groups_y);
+    listed[first[kAwake] + place] = t;
   } else {
     states[t].stirs[1 - turn] = 0;
     tiles[t] = FilmTile(-1, 0, uint(states[t].lies[0]), uint(states[t].lies[1]), 0, 0, 0, uint(states[t].lies[2]));

@@ -100,8 +100,9 @@ RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) { return fallingVelocity(h
 // so fast, the other way, each neighbour gets this much more. Ripples die where that, times h, rises with h as fast as q does there (as Engquist &
 // Osher 1981, Math. Comput. 36, split q): 0.6 (3 fallen - 4/3 blown) is no less, and above it need not fall.
 RG_FN float counterflow(float fallen, float blown) {
-  RG_EXACT float b = abs(blown), up = abs(fallen) - (2.0f / 3.0f) * b, down = b * (1.0f / 3.0f), more = 0.6f * greater(lesser(up, down), 0.0f);
-  return fallen * blown < 0.0f ? more : 0.0f;
+  // Turned round where it is against what is blown.
+  RG_EXACT float turned = fallen + (2.0f / 3.0f) * blown, more = lesser(0.6f * abs(turned), 0.2f * abs(blown));
+  return turned * blown < 0.0f ? more : 0.0f;
 }
 
 // Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
