@@ -192,25 +192,23 @@ class Copy {
 #include "shared/glass_types.glsl"
 #ifdef RG_SOFTWARE_GL
 #include "glass/film_lists.glsl"
-layout(local_size_x = kGroup) in;
+layout(local_size_x = kTilesInGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer from;
 layout(rgba32i, binding = 1) readonly uniform iimageBuffer from_beads;
 layout(std430, binding = 3) writeonly buffer To { ivec4 to[]; };
 layout(std430, binding = 6) writeonly buffer ToBeads { ivec4 to_beads[]; };
 layout(location = 4) uniform uvec2 tiles;
 void main() {
-  int lane = int(gl_LocalInvocationIndex) % kWalks, t = int(gl_GlobalInvocationID.x) / kWalks, tiles_across = int(tiles.x);
+  int t = int(gl_GlobalInvocationID.x), tiles_across = int(tiles.x), across = tiles_across * kStrips;
   if (t >= tiles_across * int(tiles.y)) return;
-  int y = t / tiles_across * kTileSize + lane / kWalksAcross * kWalkRows, across = tiles_across * kStrips;
-  int first = y * across + t % tiles_across * kStrips + lane % kWalksAcross * kWalkStrips;
-  int row = 0;
+  int first = t / tiles_across * kTileSize * across + t % tiles_across * kStrips, row = 0;
   do {
-    for (int strip = first; strip < first + kWalkStrips; ++strip) {
+    for (int strip = first; strip < first + kStrips; ++strip) {
       to[strip] = imageLoad(from, strip);
       to_beads[strip] = imageLoad(from_beads, strip);
     }
     first += across;
-  } while (++row < kWalkRows);
+  } while (++row < kTileSize);
 }
 #else
 layout(local_size_x = kTileSize, local_size_y = kTileSize) in;

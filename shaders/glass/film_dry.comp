@@ -1,8 +1,8 @@
-// Tiles whose turn it is dry, and film on them breaks up: invocations walk over strips, kWalkRows rows each. After the flow, as it left the film; those
+// Tiles whose turn it is dry, and film on them breaks up: invocations walk up a column of strips each. After the flow, as it left the film; those
 // asleep stay so, and nothing brings one copy of their film to the other, so both are written. Apart from the flow, as software GL runs through branches
 // that nobody takes.
 #include "glass/film_lists.glsl"
-layout(local_size_x = kGroup) in;
+layout(local_size_x = kTilesInGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // the film's buffer below
 layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
 layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // the beads' buffer below
@@ -19,13 +19,12 @@ layout(std430, binding = 6) writeonly buffer Lying { uvec4 beads[]; };
 struct Left { int dried_pl; uint film_low_pl, film_high, beads_pl; };
 shared Left left_on[kTilesInDryGroup];
 
-Left dryStrips(int tile, int lane, bool asleep) {
+Left dryStrips(int tile, int column, bool asleep) {
   ivec2 corner = ivec2(tile % tilesAcross(), tile / tilesAcross());
-  int column = lane % kStrips, first = lane / kStrips * kWalkRows;
   int low = corner.y * (tilesAcross() + 1) + corner.x, high = low + tilesAcross() + 1;
   vec4 m[4] = vec4[4](imageLoad(metric, low), imageLoad(metric, low + 1), imageLoad(metric, high), imageLoad(metric, high + 1));
   Left sums = Left(0, 0u, 0u, 0u);
-  int row = first;
+  int row = 0;
   do {
     int strip = (corner.y * kTileSize + row) * tilesAcross() * kStrips + corner.x * kStrips + column;
     int texel = (corner.y * kTileSize + row) * info.columns + corner.x * kTileSize + column * kStripSize;
@@ -49,12 +48,12 @@ Left dryStrips(int tile, int lane, bool asleep) {
     film[strip] = is;
     if (asleep) other[strip] = is;
     if (lie != had) beads[strip] = lie;
-  } while (++row < first + kWalkRows);
+  } while (++row < kTileSize);
   return sums;
 }
 
 void main() {
-  int walk = int(gl_LocalInvocationIndex), tile_in_group = walk / kDryWalks, lane = walk % kDryWalks;
+  int walk = int(gl_LocalInvocationIndex), tile_in_group = walk / kStrips, lane = walk % kStrips;
   uint place = groupInRows() * uint(kTilesInDryGroup) + uint(tile_in_group);
   bool here = place < drying[turn].number;
   int entry = here ? listed[uint(count) + place] : 0, t = max(entry, -1 - entry);
