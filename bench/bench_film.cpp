@@ -192,7 +192,7 @@ class Copy {
 #include "shared/glass_types.glsl"
 #ifdef RG_SOFTWARE_GL
 #include "glass/film_lists.glsl"
-layout(local_size_x = kTilesInGroup) in;
+layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer from;
 layout(rgba32i, binding = 1) readonly uniform iimageBuffer from_beads;
 layout(std430, binding = 3) writeonly buffer To { ivec4 to[]; };

@@ -218,8 +218,9 @@ void Simulation::tell() {
 CarState Simulation::carAt(int64_t time_ns) const {
   const double since_s =
       static_cast<double>(pluginTime(time_ns) - hostTickNs(std::max<int64_t>(tick_, 0))) * 1e-9;
-  CarState car = driver_.at(timeS() <= 0.0 ? 0.0 : since_s);
-  if (timeS() < 0.0) stand(car);
+  const bool before = timeS() < 0.0;
+  CarState car = driver_.at(before ? 0.0 : since_s);
+  if (before) stand(car);
   return car;
 }
 

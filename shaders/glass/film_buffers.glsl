@@ -7,8 +7,6 @@ layout(std430, binding = 1) buffer Ridges {
   uint thrown_pl[kMaxGlassWipers * kBladeSegments]; // off the pane so far, modulo 2^32: a piece holds less, and leaves no more than once a step
 };
 
-const int kFields = 8, kFilmLow = 2, kFilmHigh = 3, kBeadsPl = 7; // of FilmTile
-
 // Water below the pin lies still. A tile is looked at when some on it or on a tile beside it may flow, when it was given or lost water, and
 // when it is its turn to dry; and once more, as the film is in one buffer and then in the other.
 struct TileState {

@@ -2,9 +2,9 @@
 // asleep stay so, and nothing brings one copy of their film to the other, so both are written. Apart from the flow, as software GL runs through branches
 // that nobody takes.
 #include "glass/film_lists.glsl"
-layout(local_size_x = kTilesInGroup) in;
+layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // the film's buffer below
-layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
+layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles (PaneMap::nodeMetric)
 layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // the beads' buffer below
 layout(std430, binding = 3) writeonly buffer Film { ivec4 film[]; };
 layout(std430, binding = 7) writeonly buffer Other { ivec4 other[]; };
@@ -26,7 +26,7 @@ Left dryStrips(int tile, int column, bool asleep) {
   Left sums = Left(0, 0u, 0u, 0u);
   int row = 0;
   do {
-    int strip = (corner.y * kTileSize + row) * tilesAcross() * kStrips + corner.x * kStrips + column;
+    int strip = stripAt(corner.x * kTileSize, corner.y * kTileSize + row) + column;
     int texel = (corner.y * kTileSize + row) * info.columns + corner.x * kTileSize + column * kStripSize;
     ivec4 was = imageLoad(before, strip);
     uvec4 had = imageLoad(lying, strip);
@@ -53,21 +53,21 @@ Left dryStrips(int tile, int column, bool asleep) {
 }
 
 void main() {
-  int walk = int(gl_LocalInvocationIndex), tile_in_group = walk / kStrips, lane = walk % kStrips;
+  int tile_in_group = int(gl_LocalInvocationIndex) / kStrips, column = int(gl_LocalInvocationIndex) % kStrips;
   uint place = groupInRows() * uint(kTilesInDryGroup) + uint(tile_in_group);
   bool here = place < drying[turn].number;
   int entry = here ? listed[uint(count) + place] : 0, t = max(entry, -1 - entry);
-  if (lane == 0) left_on[tile_in_group] = Left(0, 0u, 0u, 0u);
+  if (column == 0) left_on[tile_in_group] = Left(0, 0u, 0u, 0u);
   barrier();
   if (here) {
-    Left sums = dryStrips(t, lane, entry < 0);
+    Left sums = dryStrips(t, column, entry < 0);
     atomicAdd(left_on[tile_in_group].dried_pl, sums.dried_pl);
     atomicAdd(left_on[tile_in_group].film_low_pl, sums.film_low_pl);
     atomicAdd(left_on[tile_in_group].film_high, sums.film_high);
     atomicAdd(left_on[tile_in_group].beads_pl, sums.beads_pl);
   }
   barrier();
-  if (!here || lane != 0) return;
+  if (!here || column != 0) return;
   Left left = left_on[tile_in_group];
   states[t].lies = int[3](int(left.film_low_pl), int(left.film_high), int(left.beads_pl));
   tiles[t].film_low_pl = left.film_low_pl;

@@ -4,9 +4,9 @@
 // An invocation walks up a tile that is awake, all of its columns side by side, and keeps what it knows of a texel for the next. Software GL, too, reads
 // buffers as images fast, but as storage slowly; it runs through branches that nobody takes, and once more through a loop whose way out is at its head.
 #include "glass/film_lists.glsl"
-layout(local_size_x = kTilesInGroup) in;
+layout(local_size_x = kGroup) in;
 layout(rgba32i, binding = 0) readonly uniform iimageBuffer before; // strips of texels side by side
-layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles
+layout(rgba32f, binding = 1) readonly uniform imageBuffer metric;  // of the corners of tiles (PaneMap::nodeMetric)
 layout(rgba32f, binding = 2) readonly uniform imageBuffer drive;
 layout(rgba32ui, binding = 3) readonly uniform uimageBuffer lying; // beads: the buffer below
 layout(rgba32ui, binding = 4) readonly uniform uimageBuffer glass; // a code for each strip of a tile's row
@@ -20,14 +20,11 @@ layout(std430, binding = 4) readonly buffer Awake {
 
 // What an invocation saw on its way: its tile's report.
 struct Walk {
-  int offer_pl; // the most that a texel has which offers some to the drops
+  int offer_pl; // the most that may go from a texel to the drops
   int offer_at; // place in the tile, row by row, of the first that has so much
   int film_low_pl, film_high, drained_pl, blown_pl, beads_pl; // as in FilmTile
   int stirs;    // not to fall asleep
 };
-
-// In a row of tiles' strips.
-int stripAt(int x, int y) { return y * tilesAcross() * kStrips + x / kStripSize; }
 
 // Fields at a place, at a tile's corners, and along a column of strips: at its lower and its upper edge.
 struct Field { vec4 metric, drive; };
@@ -71,17 +68,11 @@ FilmAround aroundOf(Row row, int k, int behind_pl, int ahead_pl) {
   return filmAround(row.at[k + 2], row.at[k + 1], row.at[k + 3], behind_pl, ahead_pl);
 }
 
-// The glass below a row of texels.
-struct Glass { uint codes[kStrips]; };
-Glass glassOf(int strip) {
-  uvec4 row = imageLoad(glass, strip / kStrips);
-  Glass under;
-  for (int s = 0; s < kStrips; ++s) under.codes[s] = row[strip % kStrips + s];
-  return under;
-}
-int levelAt(Glass under, int k) {
-  int s = min(max(k, 0) / kStripSize, kStrips - 1);
-  return glassLevel(under.codes[s], k - s * kStripSize);
+// The glass below a row of texels, of -1 .. kTileSize: a code for each strip, which knows its neighbours, too.
+uvec4 glassOf(int strip) { return imageLoad(glass, strip / kStrips); }
+int levelAt(uvec4 codes, int k) {
+  int s = clamp(k, 0, kTileSize - 1) / kStripSize;
+  return glassLevel(codes[s], k - s * kStripSize);
 }
 
 // A row's beads.
@@ -139,14 +130,14 @@ Walk walk(ivec2 tile) {
   int over_left = 0, over_right = 0, over_below = 0, over_above = 0;
   // The rows below, here and above; of the two beyond only what lies in the own columns.
   Row beneath = rowOf(strip - 2 * across), last = rowOf(strip - across), here = rowOf(strip), ahead = rowOf(strip + across);
-  Glass glass_last = glassOf(strip - across), glass_here = glassOf(strip);
+  uvec4 glass_last = glassOf(strip - across), glass_here = glassOf(strip);
+  // Texel by texel, though fields are a strip's: Mesa unrolls loops over these arrays that are as long as they, but no nest of them.
   for (int k = 0; k < kTileSize; ++k) {
-    FilmCell behind = cellOf(fieldAt(columnOf(below, k), -1), last.at[k + 2], aroundOf(last, k, beneath.at[k + 2], here.at[k + 2]),
-                             levelAt(glass_last, k), step);
     int s = k / kStripSize;
     columns[s] = columnOf(own, k);
-    Field field = fieldAt(columns[s], y);
+    Field field = fieldAt(columns[s], y), field_last = fieldAt(columnOf(below, k), -1);
     metric_here[s] = field.metric;
+    FilmCell behind = cellOf(field_last, last.at[k + 2], aroundOf(last, k, beneath.at[k + 2], here.at[k + 2]), levelAt(glass_last, k), step);
     me[k] = cellOf(field, here.at[k + 2], aroundOf(here, k, last.at[k + 2], ahead.at[k + 2]), levelAt(glass_here, k), step);
     from_below[k] = flowBetween_pl(behind, behind.y_pl, behind.y_both_pl, me[k], me[k].y_pl, me[k].y_both_pl, step);
     over_below -= last.at[k + 2] < 0 ? from_below[k] : 0;
@@ -159,7 +150,7 @@ Walk walk(ivec2 tile) {
     int rows = part == 0 ? kTileSize - 1 : 1;
     do {
       Row beyond = rowOf(strip + 2 * across);
-      Glass glass_ahead = glassOf(strip + across);
+      uvec4 glass_ahead = glassOf(strip + across);
       const int l = 1, r = kTileSize + 2;
       FilmAround by_left = filmAround(here.at[l], here.at[l - 1], here.at[l + 1], last.at[l], ahead.at[l]);
       FilmAround by_right = filmAround(here.at[r], here.at[r - 1], here.at[r + 1], last.at[r], ahead.at[r]);
@@ -171,9 +162,9 @@ Walk walk(ivec2 tile) {
       Beaded lay = beadsIn(strip), lie = lay;
       int after_pl[kTileSize];
       for (int k = 0; k < kTileSize; ++k) {
+        int s = k / kStripSize;
         FilmCell beside = k + 1 < kTileSize ? me[(k + 1) % kTileSize] : right;
         int to_right = flowBetween_pl(me[k], me[k].x_pl, me[k].x_both_pl, beside, beside.x_pl, beside.x_both_pl, step);
-        int s = k / kStripSize;
         Field field = fieldAt(columns[s], y + 1);
         FilmCell next = cellOf(field, ahead.at[k + 2], aroundOf(ahead, k, here.at[k + 2], beyond.at[k + 2]), levelAt(glass_ahead, k), step);
         int to_next = flowBetween_pl(me[k], me[k].y_pl, me[k].y_both_pl, next, next.y_pl, next.y_both_pl, step);
@@ -222,7 +213,7 @@ void report(int t, ivec2 tile, Walk seen) {
   ivec4 film_pl = after[strip];
   uvec4 lying_there = beads[strip];
   FilmTexel had = asItIs(film_pl[k], beadsOf(lying_there[k]));
-  int given_pl = gives ? offered_pl(had, fieldAt(columnOf(cornersOf(tile), x), y).metric.z) : 0;
+  int given_pl = gives ? offered_pl(seen.offer_pl, had.beads) : 0;
   FilmTexel left = without(had, given_pl);
   if (gives) {
     film_pl[k] = left.film_pl;

@@ -9,7 +9,10 @@ uint groupInRows() { return gl_WorkGroupID.y * kGroupsInRow + gl_WorkGroupID.x; 
 // How many tiles a step looks at, and the command for as many groups as they need.
 struct AwakeTiles { uint groups_x, groups_y, groups_z, number; };
 
-// An invocation walks over a whole tile, which shares most; and software GL runs eight at once: these are a group.
-const int kTilesInGroup = 8;
-// Tiles dry by single columns of strips, as many in a group.
-const int kTilesInDryGroup = kTilesInGroup / kStrips;
+// Invocations in a group that walk over tiles: software GL runs eight at once.
+const int kGroup = 8;
+const int kTilesInGroup = kGroup;              // the flow's each over a whole one, which shares most,
+const int kTilesInDryGroup = kGroup / kStrips; // drying ones each up a column of strips
+
+// Where in the film's buffer the strip of a texel lies.
+int stripAt(int x, int y) { return y * tilesAcross() * kStrips + x / kStripSize; }

@@ -9,7 +9,7 @@
 const int kTileTexels = kTileSize * kTileSize;
 layout(local_size_x = kTileTexels) in;
 layout(r32ui, binding = 4) readonly uniform uimageBuffer glass; // a code for each strip of a tile's row
-layout(std430, binding = 0) readonly buffer Metric { vec4 metric[]; }; // of the corners of tiles
+layout(std430, binding = 0) readonly buffer Metric { vec4 metric[]; }; // of the corners of tiles (PaneMap::nodeMetric)
 layout(std430, binding = 2) writeonly buffer Report { ivec4 report[]; }; // FilmTile of each tile, and the ridges
 layout(std430, binding = 3) writeonly buffer After { int after[]; };
 layout(std430, binding = 4) readonly buffer Drive { vec4 drive[]; };
@@ -43,7 +43,7 @@ shared vec4 node_metric[kNodes * kNodes], node_drive[kNodes * kNodes];
 
 shared int stirring, was_awake, stirs_next; // it or a tile beside it now, as it was in the last step, it in the next
 shared int lies; // other than 0 where there is water on it, as its last report had it
-shared int most_pl, giver; // of what texels have that offer some to the drops, then what is given; the first that has so much
+shared int most_pl, giver; // of what may go from texels to the drops, then what does; the first that has so much
 shared int drained_pl, blown_pl;
 
 void tell(int t, FilmTile told) {
@@ -201,13 +201,13 @@ FilmTexel flowed(ivec2 at, int volume_pl, uint lay, vec4 metric_here) {
 }
 
 // One texel of a tile gives to the drops: the one with most, the first of those.
-FilmTexel given(FilmTexel now, vec4 metric_here) {
+FilmTexel given(FilmTexel now) {
   if (now.gone_pl > 0) atomicMax(most_pl, now.gone_pl);
   barrier();
   if (now.gone_pl > 0 && now.gone_pl == most_pl) atomicMin(giver, lane());
   barrier();
   if (lane() == giver) {
-    most_pl = offered_pl(now, metric_here.z);
+    most_pl = offered_pl(now.gone_pl, now.beads);
     now = without(now, most_pl);
   }
   return now;
@@ -242,7 +242,7 @@ FilmTexel flow(uint lay, int level, int level_beside, vec4 metric_here) {
   FilmTexel now = flowed(at, me.volume_pl, lay, metric_here);
   // Asleep next time only if neighbours, too, have seen it lie still.
   if (now.stirs != 0 || me.h_m >= info.pin_m) stirs_next = 1;
-  return given(now, metric_here);
+  return given(now);
 }
 
 // One that sleeps stays asleep, and nothing brings one copy of its film to the other: both are written. A group beside may be reading the one before: it

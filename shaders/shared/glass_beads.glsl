@@ -43,8 +43,8 @@ RG_FN float cubeRoot(float x) {
   return root;
 }
 
-// a / b in whole numbers, exactly where it is below 2^20: a < 2^32, 0 < b < 2^30. Software GL divides floats eight at a time, integers one by one;
-// floats' quotient, a GPU's too, is off by one at most, which is mended.
+// a / b in whole numbers: a < 2^32, 0 < b < 2^30. Software GL divides floats eight at a time, integers one by one; floats' quotient is off by one at
+// most, which is mended, where it is below 2^20, or a below 2^24. (On a GPU, whose division may be off by 2.5 ulp, there below 2^22.)
 RG_FN int quotient(uint a, int b) {
   int whole = int((float(int(a >> 1u)) + 0.25f) / float(b) * 2.0f), rest = int(a - uint(whole) * uint(b));
   return whole + int(rest >= b) - int(rest < 0);

@@ -80,7 +80,7 @@ RG_FN vec4 betweenNodes(RG_IN(vec4) a, RG_IN(vec4) b, RG_IN(vec4) c, RG_IN(vec4)
 }
 
 // Where between the edges of its tile a texel's fields are asked for. Half way up it; but along a row once for a strip of texels, which differ by
-// an eighth of what a tile's edges do at most. A strip's mirror image is a strip, so that what is mirrored flows alike.
+// an eighth of what a tile's edges do at most.
 RG_FN float placeAcross(int x) { return (float(x & (kTileSize - kStripSize)) + 0.5f * float(kStripSize)) / float(kTileSize); }
 RG_FN float placeUp(int y) { return (float(y & (kTileSize - 1)) + 0.5f) / float(kTileSize); }
 
@@ -100,9 +100,9 @@ RG_FN vec2 filmVelocity(float h_m, RG_IN(vec4) drive) { return fallingVelocity(h
 // so fast, the other way, each neighbour gets this much more. Ripples die where that, times h, rises with h as fast as q does there (as Engquist &
 // Osher 1981, Math. Comput. 36, split q): 0.6 (3 fallen - 4/3 blown) is no less, and above it need not fall.
 RG_FN float counterflow(float fallen, float blown) {
-  // Turned round where it is against what is blown.
-  RG_EXACT float turned = fallen + (2.0f / 3.0f) * blown, more = lesser(0.6f * abs(turned), 0.2f * abs(blown));
-  return turned * blown < 0.0f ? more : 0.0f;
+  // Against what is blown where it is the other way round and more than two thirds of that.
+  RG_EXACT float rest = fallen + (2.0f / 3.0f) * blown, more = lesser(0.6f * abs(rest), 0.2f * abs(blown));
+  return rest * blown < 0.0f ? more : 0.0f;
 }
 
 // Waves go three times as fast as the film, but no farther in a step than this share of a cell: what is left of one is surface tension's.
@@ -245,7 +245,7 @@ RG_FN int driedOfBeads_pl(RG_IN(Beads) beads, uint texel, RG_IN(FilmStepInfo) in
 struct FilmTexel {
   int film_pl; // -1: off the pane
   Beads beads;
-  int gone_pl; // evaporated; or of what lies there some is too much, and offered to the drops, see offered_pl
+  int gone_pl; // evaporated; or what may go to the drops: all over the thickest film; of beads, some too large, as much as they have (offered_pl)
   int stirs;   // 1: not to fall asleep
 };
 
@@ -281,7 +281,7 @@ RG_FN FilmTexel dried(int film_pl, RG_IN(Beads) lying, uint texel, RG_IN(vec4) m
   Beads more = joinedBy(t.beads, t.film_pl, of_film, surplus_pl);
   more.number = min(more.number, max(of_film, t.beads.number));
   // None of them too large at once: what dries is left as settled() leaves it, and may sleep on.
-  int most_pl = max(info.most_bead_pl, 1), least = quotient(uint(more.volume_pl + most_pl - 1), most_pl);
+  int most_pl = max(info.most_bead_pl, 1), least = quotient(uint(max(more.volume_pl, 0) + most_pl - 1), most_pl);
   int number = int(min(float(max(more.number, least)), beadsCovering(more.volume_pl, kCrowded, info.bead_mm3_per_pl, metric.z)));
   bool breaks = breaksUp(h_m, texel, info) && number >= max(least, 1);
   t.film_pl = breaks ? surplus_pl : t.film_pl;
@@ -302,17 +302,14 @@ RG_FN FilmTexel settled(int film_pl, RG_IN(Beads) lying, RG_IN(vec4) metric, RG_
   t.film_pl += joins ? lying.volume_pl : 0;
   t.beads.volume_pl = joins ? 0 : lying.volume_pl;
   t.beads.number = joins ? 0 : number;
-  float h_m = thickness_m(t.film_pl, metric);
-  bool overfull = h_m > kOverfull_m, too_large = t.beads.number > 0 && (alone || t.beads.volume_pl > t.beads.number * info.most_bead_pl);
-  t.stirs = int(too_large || h_m >= info.pin_m);
-  t.gone_pl = info.drops_allowed == 0 ? 0 : overfull ? t.film_pl : too_large ? t.beads.volume_pl : 0;
+  int too_much_pl = t.film_pl - int(kOverfull_m * metric.w);
+  bool too_large = t.beads.number > 0 && (alone || t.beads.volume_pl > t.beads.number * info.most_bead_pl);
+  t.stirs = int(too_large || thickness_m(t.film_pl, metric) >= info.pin_m);
+  t.gone_pl = info.drops_allowed == 0 ? 0 : too_much_pl > 0 ? too_much_pl : too_large ? t.beads.volume_pl : 0;
   return t;
 }
-// What one that has gone_pl offers: a bead, or what is over the thickest film.
-RG_FN int offered_pl(RG_IN(FilmTexel) texel, float per_m2) {
-  int most_pl = int(kOverfull_m / (per_m2 * kPicolitre_m3));
-  return texel.beads.number > 0 ? meanBead_pl(texel.beads) : max(texel.film_pl - most_pl, 1);
-}
+// What of gone_pl does go: a bead, or all of a film's. (For one texel of a tile, as each texel would have to divide.)
+RG_FN int offered_pl(int gone_pl, RG_IN(Beads) lying) { return lying.number > 0 ? meanBead_pl(lying) : gone_pl; }
 // ... and after its tile's offer has gone to the drops.
 RG_FN FilmTexel without(RG_IN(FilmTexel) texel, int given_pl) {
   FilmTexel t = texel;

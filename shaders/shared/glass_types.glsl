@@ -5,8 +5,8 @@
 RG_SHARED_BEGIN
 
 RG_CONST float kPicolitre_m3 = 1.0e-15f;
-RG_CONST int kTileSize = 16;      // texels along a tile's side: a work group of the film, and the grain of what it reports
-RG_CONST int kStripSize = 4;      // texels side by side that one invocation works on together
+RG_CONST int kTileSize = 16;      // texels along a tile's side: the grain of what the film works on and reports
+RG_CONST int kStripSize = 4;      // texels side by side that are fetched together, and flow by the same fields (placeAcross in glass_film.glsl)
 RG_CONST int kBladeSegments = 192; // a blade's ridge is kept in so many pieces along it: about a texel each
 RG_CONST int kMaxGlassWipers = 8; // on one pane
 

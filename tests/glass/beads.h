@@ -27,7 +27,7 @@ inline shared::FilmStepInfo uncoated() {
 // Of PaneMap::nodeMetric().
 inline shared::vec4 squareTexel(float side_m) {
   const float per_step = shared::kFilmStep_s / side_m;
-  return {per_step, per_step, 1.0f / (side_m * side_m), 0.0f};
+  return {per_step, per_step, 1.0f / (side_m * side_m), side_m * side_m / shared::kPicolitre_m3};
 }
 inline const shared::vec4 kTexel = squareTexel(3e-3f);
 

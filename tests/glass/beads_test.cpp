@@ -38,6 +38,9 @@ TEST(Beads, quotientsAreIntegers) {
     const uint32_t even = whole * static_cast<uint32_t>(b);
     for (const uint32_t a : {even, even == 0 ? 0 : even - 1, h.y % std::max(even, 1u)})
       ASSERT_EQ(shared::quotient(a, b), static_cast<int>(a / static_cast<uint32_t>(b))) << a << " / " << b;
+    const uint32_t volume_pl = h.y % (1u << 24u), number = 1u + h.x % 64u;
+    ASSERT_EQ(shared::quotient(volume_pl, static_cast<int>(number)), static_cast<int>(volume_pl / number))
+        << volume_pl << " / " << number;
   }
 }
 
@@ -85,7 +88,7 @@ TEST(Beads, everyStepKeepsTheVolume) {
     ASSERT_GE(t.film_pl, 0);
     ASSERT_EQ(t.beads.number > 0, t.beads.volume_pl > 0);
     ASSERT_LE(t.beads.number, shared::kMostBeads);
-    const int given_pl = t.gone_pl > 0 ? shared::offered_pl(t, kTexel.z) : 0;
+    const int given_pl = t.gone_pl > 0 ? shared::offered_pl(t.gone_pl, t.beads) : 0;
     ASSERT_EQ(given_pl > 0, t.gone_pl > 0);
     ASSERT_LE(given_pl, t.gone_pl);
     const shared::FilmTexel left = shared::without(t, given_pl);
@@ -120,7 +123,7 @@ TEST(Beads, crowdedOnesRunTogether) {
     if (t.gone_pl == 0)
       EXPECT_LE(share, static_cast<double>(shared::kCrowded) * 1.001) << volume_pl;
     else
-      EXPECT_EQ(shared::offered_pl(t, kTexel.z), volume_pl);
+      EXPECT_EQ(shared::offered_pl(t.gone_pl, t.beads), volume_pl);
     // One more would not have room.
     if (t.beads.number > 1 && t.beads.number < 64) {
       EXPECT_GT(share * std::cbrt(static_cast<double>(t.beads.number + 1) / t.beads.number),
@@ -266,7 +269,7 @@ TEST(Beads, tooLargeOnesAreOfferedOneByOne) {
     EXPECT_EQ(shared::settled(0, beads(few, number), coarse, info).gone_pl, 0);
     const shared::FilmTexel more = shared::settled(0, beads(few + number, number), coarse, info);
     EXPECT_EQ(more.gone_pl, few + number);
-    EXPECT_EQ(shared::offered_pl(more, coarse.z), info.most_bead_pl + 1);
+    EXPECT_EQ(shared::offered_pl(more.gone_pl, more.beads), info.most_bead_pl + 1);
     EXPECT_EQ(more.stirs, 1);
     const shared::FilmTexel left = shared::without(more, info.most_bead_pl + 1);
     EXPECT_EQ(left.beads.number, number - 1);

@@ -126,16 +126,14 @@ class FilmReference {
       now = shared::settled(flowed(i, cells, order.info, tile), beadsAt(i), metric, order.info);
       put(i, now);
       if (now.gone_pl > tile.event_pl) {
-        tile.event_pl = now.gone_pl;  // what it has: what it gives comes below
+        tile.event_pl = now.gone_pl;  // what may go: what does comes below
         tile.event_texel = i;
       }
     }
     for (shared::FilmTile& tile : report.tiles) {
       if (tile.event_texel < 0) continue;
       const shared::FilmTexel& gives = settled[static_cast<size_t>(tile.event_texel)];
-      const float per_m2 =
-          field(map_.nodeMetric(), tile.event_texel % columns_, tile.event_texel / columns_).z;
-      tile.event_pl = shared::offered_pl(gives, per_m2);
+      tile.event_pl = shared::offered_pl(gives.gone_pl, gives.beads);
       put(tile.event_texel, shared::without(gives, tile.event_pl));
     }
     dry(order.info, report);

@@ -180,5 +180,19 @@ INSTANTIATE_TEST_SUITE_P(
                       Variant{.scenario = "tunnel", .changes = {"weather.wind_x_mps=-40"}}),
     [](const auto& v) { return nameOf(v.param); });
 
+// Else the eye would be told to move and stand still, and drops be drawn where they are not.
+TEST(Drives, areWhereTheirVelocitySaysFromTheFirstMoment) {
+  constexpr double kFrame_s = 1.0 / 480.0;  // four to a tick
+  Drive drive(Variant{.scenario = "fast"}, kFrame_s);
+  ASSERT_TRUE(drive.next());
+  for (int frame = 0; frame < 8; ++frame) {
+    const host::CarState before = drive.car();
+    ASSERT_TRUE(drive.next());
+    EXPECT_NEAR(glm::distance(drive.car().position_m, before.position_m), 130.0 / 3.6 * kFrame_s, 1e-3)
+        << frame;
+    EXPECT_NEAR(glm::length(before.velocity_mps), 130.0 / 3.6, 0.1) << frame;
+  }
+}
+
 }  // namespace
 }  // namespace oracle

@@ -129,9 +129,9 @@ class PaneMap {
   glm::ivec2 nodeCount() const { return nodes_across_; }
   glm::ivec2 tileCount() const { return nodes_across_ - 1; }
   const std::vector<PaneNode>& nodes() const { return nodes_; }
-  const std::vector<shared::vec4>& nodeMetric() const {
-    return node_metric_;
-  }  // how many texels 1 m/s goes along x, y in a step of the film; 1/area in 1/m^2; 0
+  // As the film asks for it: how many texels 1 m/s goes along x, y in its step; 1/area in 1/m^2; how many
+  // picolitres a film of 1 m has.
+  const std::vector<shared::vec4>& nodeMetric() const { return node_metric_; }
   size_t tileOf(int index) const;  // of a texel
   const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }  // of what is shown
 
