@@ -115,7 +115,11 @@ Stage::Stage(const Options& options, const Scenario& scenario, Models models, Co
   if (options.budget.empty()) plugin_->setParameter("glass.threads", threadsForPanes());
   setParameters();
   simulation_ = std::make_unique<Simulation>(scenario, car_, road_, *plugin_, options.size_px);
-  simulation_->adapting_luminance = [this](glm::dvec3 eye_m) { return renderer_->adaptingLuminance(eye_m); };
+  // By the sky as it is then, whether it is drawn or not: pictures are as bright whichever were drawn before.
+  simulation_->adapting_luminance = [this](glm::dvec3 eye_m) {
+    renderer_->lightSky(sky(std::llround(simulation_->timeS() * 1e9)));
+    return renderer_->adaptingLuminance(eye_m);
+  };
 }
 
 void Stage::setParameters() {

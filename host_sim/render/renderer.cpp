@@ -365,6 +365,8 @@ void Renderer::setEnvironment(std::span<const float> rgb, int width, int height)
   self_->environment.setPicture(rgb, width, height);
 }
 
+void Renderer::lightSky(const Sky& sky) { self_->environment.update(sky); }
+
 void Renderer::beginFrame(const Sky& sky, glm::dvec3 eye_m) {
   Self& self = *self_;
   self.times.clear();

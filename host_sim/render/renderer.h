@@ -129,6 +129,8 @@ class Renderer {
   /// linear, in this file's unit; the world's +x is in its middle column, +y left of it.
   void setEnvironment(std::span<const float> rgb, int width, int height);
 
+  /// The sky's light alone, for lighting() and adaptingLuminance() between pictures.
+  void lightSky(const Sky& sky);
   /// The weather's light for the views to come, around `eye_m`. Renews sky, shadow and lamps where they
   /// changed.
   void beginFrame(const Sky& sky, glm::dvec3 eye_m);

@@ -291,12 +291,19 @@ RG_FN float splashCover(vec2 at, float pixel_half, RG_IN(SplashDrawn) s) {
   return s.radius * (s.wall * arc * walls + s.droplets * (s.high - s.low) * droplets) / (4.0f * pixel_half * pixel_half);
 }
 
-// Droplets are few: where a splash is many pixels wide, by chance one of those shows more of them and another none, 1 on the mean (by eye). `at`: as
-// above, but to the picture's right where the picture stands on its head.
+// Droplets are few: where a splash is many pixels wide, by chance there are more of them here and fewer there, 1 on the mean. They fly while a picture is
+// exposed, and have no edges (by eye). `at`: as above, but to the picture's right where the picture stands on its head.
+RG_CONST float kSplashSpeck_px = 2.5f;
+RG_FN float splashSpeckAt(ivec2 corner, float seed) {
+  float u = unitFloat(pcg(uint(corner.x) | uint(corner.y) << 10u | uint(seed) << 20u));
+  return 0.4f + 2.4f * u * u * u;
+}
 RG_FN float splashSpeck(vec2 at, RG_IN(SplashDrawn) s, float seed) {
-  ivec2 pixel = ivec2(floor(at)) + 512;
-  float u = unitFloat(pcg(uint(pixel.x) | uint(pixel.y) << 10u | uint(seed) << 20u));
-  return mix(1.0f, 0.4f + 2.4f * u * u * u, clamp(0.3f * s.radius - 0.3f, 0.0f, 1.0f));
+  vec2 place = at / kSplashSpeck_px + 512.0f, low = floor(place), f = place - low;
+  ivec2 corner = ivec2(low);
+  float below = mix(splashSpeckAt(corner, seed), splashSpeckAt(corner + ivec2(1, 0), seed), f.x);
+  float above = mix(splashSpeckAt(corner + ivec2(0, 1), seed), splashSpeckAt(corner + ivec2(1, 1), seed), f.x);
+  return mix(1.0f, mix(below, above, f.y), clamp(0.3f * s.radius - 0.3f, 0.0f, 1.0f));
 }
 
 // The sum of that over all pixels.
