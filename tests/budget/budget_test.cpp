@@ -37,6 +37,14 @@ TEST(Budget, downpourKeepsIt) {
   EXPECT_EQ(bestOfThree(0, arguments("downpour"), table), 0) << table;
 }
 
+// On a GPU there is none for it yet.
+TEST(Budget, nightKeepsIt) {
+  std::string table;
+  const int exit_code = bestOfThree(0, arguments("night"), table);
+  if (table.find("has no [gpu.night]") != std::string::npos) GTEST_SKIP() << table;
+  EXPECT_EQ(exit_code, 0) << table;
+}
+
 TEST(Budget, tripsWhenTheWorkIsThreeTimesLarger) {
   std::string table;
   EXPECT_EQ(bestOfThree(4, arguments("downpour", 0.6) + " --set plugin.bench.repeat=3", table), 4) << table;
