@@ -132,7 +132,7 @@ class PaneMap {
   // As the film asks for it: how many texels 1 m/s goes along x, y in its step; 1/area in 1/m^2; how many
   // picolitres a film of 1 m has.
   const std::vector<shared::vec4>& nodeMetric() const { return node_metric_; }
-  size_t tileOf(int index) const;  // of a texel
+  size_t tileOf(int index) const;                                          // of a texel
   const std::vector<float>& tileArea_m2() const { return tile_area_m2_; }  // of what is shown
 
   // Regions for shelter, see kRegions. Middle of the whole pane's glass there; none where it has none.
