@@ -20,6 +20,7 @@ layout(location = 7 + VOLUMES) noperspective out vec4 bound_near[VOLUMES];
 
 const float kBent = 1.0;  // tangent of the angle by which a drop's rim bends what is seen through it (unsourced)
 const float kLeastRise = 0.1;  // sine of the elevation up to which the horizon's ground shows in the blurred sky
+const float kLampWide = 1.5;  // tiles; what is finer would be seen as a tile, or not, by where its corners lie (here a fifth more or less)
 const float kSkyLevels = 5.0;  // of the cube map that are kept: 16 texels a face, blurred by 6 degrees
 const vec4 kLayerDepth_m = vec4(8.0, 28.0, 70.0, 200.0);  // where a layer is tested as a whole
 
@@ -94,8 +95,9 @@ void main() {
   lamps_near = vec3(0.0);
   lamps_middle = vec3(0.0);
   if (look.lamp_count > 0u) {
-    lamps_near = asInTarget(gatheredFromLamps(towards * kLayerDepth_m.x));
-    lamps_middle = asInTarget(gatheredFromLamps(towards * kLayerDepth_m.y));
+    float wide_rad = kLampWide * max(step_clip.x * length(beyond.ray_right.xyz), step_clip.y * length(beyond.ray_up.xyz));
+    lamps_near = asInTarget(gatheredFromLampsAlong(towards, 0.0, kRainNearEnd_m, wide_rad));
+    lamps_middle = asInTarget(gatheredFromLampsAlong(towards, kRainNearEnd_m, kRainMiddleEnd_m, wide_rad));
   }
 
   for (int i = 0; i < VOLUMES; ++i) {

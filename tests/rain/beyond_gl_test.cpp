@@ -31,6 +31,7 @@ struct Asked {
   bool particles = false;
   bool read_depth = true;
   glm::vec3 light{0.0f};  // of sky and ground; 0: what is seen is what comes through
+  std::vector<DropLamp> lamps{};
 };
 
 // Draws over a white scene of given depth.
@@ -76,6 +77,7 @@ class BeyondTest : public rg::test::GlTest {
                       false,
                       1.0f};
     request.lighting.sky_radiance = request.lighting.ground_radiance = asked.light;
+    request.lighting.lamps = asked.lamps;
     request.gain = asked.gain;
     if (!beyond) {
       beyond = std::make_unique<BeyondRenderer>(*loaded);
@@ -196,6 +198,26 @@ TEST_F(BeyondTest, showsTheSkysLightWhereItHidesTheScene) {
   const auto picture = drawBoard(100.0, 990.0, 64, 36, {.look = kEven, .light = glm::vec3(0.3f)});
   // At 6.8 per km a thousandth of the scene comes through.
   for (const glm::vec4& p : picture.pixels) ASSERT_NEAR(p.x, 0.3f, 0.01f);
+}
+
+// A lamp in the rain, 28 m off, that goes from a corner of the picture's tiles to the next: half way between
+// both it is as bright. (One asked for at corners alone is 800 times as bright there.)
+TEST_F(BeyondTest, isLitAsMuchByALampWhereverThatLiesInATile) {
+  constexpr double kAhead_m = 28.0, kTile_m = 2.0 * 32.0 / 320.0 * 0.57735 * kAhead_m, kCorner_m = 0.6;
+  const Asked dark{.look = kEven};
+  const double without = mean(drawBoard(50.0, 200.0, 320, 180, dark));
+  double least = 1e9, most = 0.0;
+  for (int k = 0; k <= 8; ++k) {
+    Asked lit = dark;
+    lit.lamps.push_back(
+        {.position_m = {kAhead_m, k / 8.0 * kTile_m, 1.5 + kCorner_m}, .intensity = glm::vec3(50.0f)});
+    const double light = mean(drawBoard(50.0, 200.0, 320, 180, lit)) - without;
+    least = std::min(least, light);
+    most = std::max(most, light);
+  }
+  std::printf("lit by %.4f to %.4f\n", least, most);
+  EXPECT_GT(least, 1e-3);
+  EXPECT_LT(most, 1.3 * least);
 }
 
 TEST_F(BeyondTest, inDryWeatherChangesNoPixel) {
