@@ -3,17 +3,11 @@
 
 layout(binding = 1) uniform samplerCube environment;
 
-// What part of a lamp's intensity goes this way.
-float coneOf(RainLamp lamp, vec3 way) {
-  float outer = lamp.direction_outer.w;
-  return outer <= -1.0 ? 1.0 : smoothstep(outer, max(lamp.place_inner.w, outer + 1e-3), dot(way, lamp.direction_outer.xyz));
-}
-
 vec3 irradianceOf(RainLamp lamp, vec3 drop, out vec3 way) {
   way = drop - lamp.place_inner.xyz;
   float distance_m = max(length(way), 0.1);
   way /= distance_m;
-  return lamp.intensity.rgb * (coneOf(lamp, way) / (distance_m * distance_m));
+  return lamp.intensity.rgb * (rainLampCone(lamp, way) / (distance_m * distance_m));
 }
 
 vec3 fromLamp(RainLamp lamp, vec3 drop, vec3 towards) {
@@ -28,25 +22,10 @@ vec3 gatheredFromLamps(vec3 drop) {
   return light;
 }
 
-// The mean over drops that lie between two distances in the unit direction `towards`, and as far beside it as `wide_rad` tells apart. In steps of equal angle
-// as a lamp sees them each counts alike, however near that is (Kulla & Fajardo 2012, "Importance Sampling Techniques for Path Tracing in Participating
-// Media", Comput. Graph. Forum 31).
+// The mean over drops on a stretch of a way, see rainLampAlong.
 vec3 gatheredFromLampsAlong(vec3 towards, float from_m, float to_m, float wide_rad) {
-  const int kSteps = 4;
   vec3 light = vec3(0.0);
-  for (uint i = 0u; i < look.lamp_count; ++i) {
-    RainLamp lamp = look.lamps[i];
-    float nearest_m = dot(lamp.place_inner.xyz, towards), wide_m = wide_rad * max(nearest_m, from_m);
-    vec3 aside = lamp.place_inner.xyz - nearest_m * towards;
-    float apart_m = sqrt(dot(aside, aside) + wide_m * wide_m + 0.01);
-    float first = atan(from_m - nearest_m, apart_m), angle = (atan(to_m - nearest_m, apart_m) - first) / float(kSteps), lit = 0.0;
-    for (int k = 0; k < kSteps; ++k) {
-      float at_m = nearest_m + apart_m * tan(first + (float(k) + 0.5) * angle);
-      vec3 way = normalize(at_m * towards - lamp.place_inner.xyz + 1e-3 * towards);
-      lit += coneOf(lamp, way) * rainPhase(dot(way, -towards));
-    }
-    light += lamp.intensity.rgb * (lit * angle / (apart_m * (to_m - from_m)));
-  }
+  for (uint i = 0u; i < look.lamp_count; ++i) light += look.lamps[i].intensity.rgb * rainLampAlong(look.lamps[i], towards, from_m, to_m, wide_rad);
   return light;
 }
 
