@@ -5,7 +5,7 @@ layout(binding = 1) uniform samplerCube environment;
 
 vec3 irradianceOf(RainLamp lamp, vec3 drop, out vec3 way) {
   way = drop - lamp.place_inner.xyz;
-  float distance_m = max(length(way), 0.1);
+  float distance_m = max(length(way), kRainLampSize_m);
   way /= distance_m;
   return lamp.intensity.rgb * (rainLampCone(lamp, way) / (distance_m * distance_m));
 }

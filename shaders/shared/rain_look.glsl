@@ -66,6 +66,8 @@ RG_FN float rainPhase(float cosine) {
   return (1.0f - g * g) / (12.5663706f * d * sqrt(d));
 }
 
+RG_CONST float kRainLampSize_m = 0.1f;  // no drop is nearer to a lamp
+
 // What part of a lamp's intensity goes a way (unit).
 RG_FN float rainLampCone(RG_IN(RainLamp) lamp, vec3 way) {
   float outer = lamp.direction_outer.w;
@@ -80,11 +82,12 @@ RG_FN float rainLampAlong(RG_IN(RainLamp) lamp, vec3 towards, float from_m, floa
   vec3 place = xyz(lamp.place_inner);
   float nearest_m = dot(place, towards), wide_m = wide_rad * max(nearest_m, from_m);
   vec3 aside = place - nearest_m * towards;
-  float apart_m = sqrt(dot(aside, aside) + wide_m * wide_m + 0.01f);
+  float apart_m = sqrt(dot(aside, aside) + wide_m * wide_m + kRainLampSize_m * kRainLampSize_m);
   float first = atan(from_m - nearest_m, apart_m), angle = (atan(to_m - nearest_m, apart_m) - first) / float(kSteps), lit = 0.0f;
   for (int k = 0; k < kSteps; ++k) {
     float at_m = nearest_m + apart_m * tan(first + (float(k) + 0.5f) * angle);
-    vec3 way = normalize((at_m + 1.0e-3f) * towards - place);
+    vec3 way = at_m * towards - place;
+    way = way / max(length(way), kRainLampSize_m);
     lit += rainLampCone(lamp, way) * rainPhase(-dot(way, towards));
   }
   return lit * angle / (apart_m * (to_m - from_m));

@@ -293,7 +293,9 @@ TEST_F(BeadsOnGlass, slotsSufficeInADownpourAtSpeed) {
   std::printf("drops %.0f, once %u, beads %.1f mL, drops %.1f mL, film %.1f mL of %.1f mL caught\n", mean,
               most, 1e-9 * static_cast<double>(s.beads_pl), 1e-9 * static_cast<double>(s.drops_pl),
               1e-9 * static_cast<double>(s.film_pl), 1e-9 * static_cast<double>(s.caught_pl));
-  EXPECT_LT(most, info.max_drops);
+  // Where they run short all but a hundredth are taken, and with a fifth fewer most water stays film.
+  EXPECT_LT(most, 97 * info.max_drops / 100);
+  EXPECT_GT(mean, 6000.0);
   EXPECT_LT(mean, 7500.0);
   EXPECT_EQ(s.caught_pl, sumOf(s));
 }

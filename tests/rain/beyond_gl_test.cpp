@@ -220,6 +220,18 @@ TEST_F(BeyondTest, isLitAsMuchByALampWhereverThatLiesInATile) {
   EXPECT_LT(most, 1.3 * least);
 }
 
+// As far as a host may place it.
+TEST_F(BeyondTest, isNotLitByALampBeyondAllThatIsSeen) {
+  const Asked dark{.look = kEven, .light = glm::vec3(0.3f)};
+  const auto without = drawBoard(50.0, 200.0, 64, 36, dark);
+  for (const double far_m : {1e12, 1e20, 1e300}) {
+    Asked lit = dark;
+    lit.lamps.push_back({.position_m = {far_m, 0.0, 0.0}, .intensity = glm::vec3(1e9f)});
+    EXPECT_EQ(rg::test::greatestDifference(drawBoard(50.0, 200.0, 64, 36, lit), without), 0.0f) << far_m;
+    for (const glm::vec4& p : drawBoard(50.0, 200.0, 64, 36, lit).pixels) ASSERT_TRUE(std::isfinite(p.x));
+  }
+}
+
 TEST_F(BeyondTest, inDryWeatherChangesNoPixel) {
   for (const bool read_depth : {true, false}) {
     const auto picture = drawBoard(0.0, 100.0, 64, 36, {.read_depth = read_depth, .light = glm::vec3(0.3f)});

@@ -253,7 +253,8 @@ void PaneMap::makeNodes() {
     const double step_s = static_cast<double>(shared::kFilmStep_s);
     node_metric_.emplace_back(static_cast<float>(step_s / (glm::length(node.along_x) * grid_.texel_m)),
                               static_cast<float>(step_s / (glm::length(node.along_y) * grid_.texel_m)),
-                              static_cast<float>(1.0 / area), static_cast<float>(area * 1e15));
+                              static_cast<float>(1.0 / area),
+                              static_cast<float>(area / static_cast<double>(shared::kPicolitre_m3)));
   }
 }
 

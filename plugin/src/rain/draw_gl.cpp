@@ -15,10 +15,14 @@ using shared::RainLook;
 
 vec4 wide(const vec3& v) { return vec4(v, 0.0f); }
 
+constexpr double kFarthestLamp_m = 1e9;  // squares of floats overflow at 1e19; nothing is seen of it by then
+
 // The lamps nearest to the eye, seen from it.
 uint32_t setLamps(std::span<const DropLamp> given, const dvec3& eye, RainLook& look) {
   std::vector<const DropLamp*> lamps;
-  for (const DropLamp& lamp : given) lamps.push_back(&lamp);
+  for (const DropLamp& lamp : given) {
+    if (glm::distance(lamp.position_m, eye) < kFarthestLamp_m) lamps.push_back(&lamp);
+  }
   const size_t count = std::min<size_t>(lamps.size(), shared::kRainLamps);
   std::partial_sort(lamps.begin(), lamps.begin() + static_cast<std::ptrdiff_t>(count), lamps.end(),
                     [&](const DropLamp* a, const DropLamp* b) {
