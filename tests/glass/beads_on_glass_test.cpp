@@ -273,31 +273,46 @@ TEST_F(BeadsOnGlass, aDropThatSlidesClearsItsWholeWidth) {
   EXPECT_NEAR(lyingBy(12e-3, 30e-3) / far_before, 1.0, 0.02);
 }
 
-// At 100 mm/h and 100 km/h slots suffice: most are wanted in the second before the first drops run off, then
-// three quarters. How many there are at a moment goes up and down by some hundreds.
+// At 100 mm/h and 100 km/h slots suffice: most are wanted in the second before the water is a film.
 TEST_F(BeadsOnGlass, slotsSufficeInADownpourAtSpeed) {
   const Mesh mesh = windscreen(0.75, 0.8, rad(30), 0.03);
   glass::PaneInfo info = paneInfo(mesh);
   info.max_drops = 10000;  // half a windscreen, half the slots
   Simulation sim(gl, info);
-  constexpr int kLooks = 32;
   uint32_t most = 0;
-  double mean = 0.0;
-  for (int look = 0; look < kLooks; ++look) {
+  for (int look = 0; look < 32; ++look) {
     sim.run(weather(100.0, 27.8, 0.9), 0.25);
-    const uint32_t drops = sim.stats().drops;
-    most = std::max(most, drops);
-    if (look >= kLooks / 2) mean += 2.0 * drops / kLooks;
+    most = std::max(most, sim.stats().drops);
   }
   const glass::PaneStats s = sim.stats();
-  std::printf("drops %.0f, once %u, beads %.1f mL, drops %.1f mL, film %.1f mL of %.1f mL caught\n", mean,
-              most, 1e-9 * static_cast<double>(s.beads_pl), 1e-9 * static_cast<double>(s.drops_pl),
-              1e-9 * static_cast<double>(s.film_pl), 1e-9 * static_cast<double>(s.caught_pl));
-  // Where they run short all but a hundredth are taken, and with a fifth fewer most water stays film.
+  std::printf("drops %u, once %u\n", s.drops, most);
+  // Where they run short all but a hundredth are taken.
   EXPECT_LT(most, 97 * info.max_drops / 100);
-  EXPECT_GT(mean, 6000.0);
-  EXPECT_LT(mean, 7500.0);
+  EXPECT_GT(most, 70 * info.max_drops / 100) << "there are more than it takes";
   EXPECT_EQ(s.caught_pl, sumOf(s));
+}
+
+// Lamellae that come before the last have drawn back into drops keep glass wet from which water recedes
+// slowly: a downpour is a sheet there. Not on glass that water leaves at once, nor in rain that brings few.
+TEST_F(BeadsOnGlass, areNotWhatADownpourLeavesOnUncoatedGlass) {
+  const auto filmsShare = [&](glass::Glass glass, double rate_mm_h, double speed_mps, double seconds) {
+    const Mesh mesh = windscreen(0.4, 0.4, rad(30));
+    glass::PaneInfo info = paneInfo(mesh);
+    info.glass = glass;
+    Simulation sim(gl, info);
+    sim.run(weather(rate_mm_h, speed_mps), seconds);
+    const glass::PaneStats s = sim.stats();
+    EXPECT_EQ(s.caught_pl, sumOf(s));
+    return static_cast<double>(s.film_pl) / static_cast<double>(s.on_glass_pl);
+  };
+  const double downpour = filmsShare(glass::Glass::uncoated, 100.0, 11.0, 4.0),
+               coated = filmsShare(glass::Glass::coated, 100.0, 11.0, 4.0),
+               parked = filmsShare(glass::Glass::uncoated, 10.0, 0.0, 25.0);
+  std::printf("film: %.2f of the water in a downpour, %.2f on coated glass, %.2f parked\n", downpour, coated,
+              parked);
+  EXPECT_GT(downpour, 0.8);
+  EXPECT_LT(coated, 0.1);
+  EXPECT_LT(parked, 0.3);
 }
 
 }  // namespace

@@ -51,6 +51,30 @@ TEST(Impact, catchMatchesTheIntegral) {
   }
 }
 
+// By Clanet's D We^(1/4) across, of drops of one size that fall straight onto level glass.
+TEST(Impact, lamellaeRunOverAPlaceAsOftenAsTheirAreaSays) {
+  const Mesh mesh = windscreen(1.5, 0.8, 1e-4);
+  const glass::PaneMap map(paneInfo(mesh));
+  glass::PaneTick tick = weather(0.0);
+  constexpr double kDiameter_m = 2e-3, kFall_mps = 6.5, kNumber_per_m3 = 400.0;
+  tick.class_count = 1;
+  tick.classes[0] = {kDiameter_m, kNumber_per_m3, kFall_mps};
+  const double weber = 1000.0 * kFall_mps * kFall_mps * kDiameter_m / 0.072;
+  const double across_m = kDiameter_m * std::pow(weber, 0.25);
+  const double expected_hz = kNumber_per_m3 * kFall_mps * kPi / 4.0 * across_m * across_m;
+  double mean_hz = 0.0;
+  constexpr int kTicks = 400;
+  std::vector<glass::Impact> impacts;
+  size_t count = 0;
+  for (int k = 0; k < kTicks; ++k) {
+    tick.index = k;
+    glass::findImpacts(map, tick, 5, 1, impacts);
+    mean_hz += glass::lamellae_hz(map, impacts) / kTicks;
+    count += impacts.size();
+  }
+  EXPECT_NEAR(mean_hz / expected_hz, 1.0, 4.0 / std::sqrt(static_cast<double>(count)) + 1e-3);
+}
+
 TEST(Impact, placesGoByAreaAndIncidence) {
   const Mesh mesh = windscreen(1.5, 0.8, rad(30), 0.25, 40);
   const glass::PaneMap map(paneInfo(mesh));

@@ -86,6 +86,7 @@ struct DropWorld {
   int64_t tick = 0;
   double humidity = 1.0;
   double saturated_kg_m3 = 0.0;
+  double lamellae_hz = 0.0;  // see impact.h
 };
 
 // One that ran over the pane's edge, from this texel.
@@ -123,8 +124,9 @@ class Drops {
   // unless `as_told`. Returns its slot, or -1 when there is no room (nothing happened).
   int add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed,
           bool as_told = false);
-  // A raindrop: joins the drop it falls on; lies as a bead when it is small; breaks up into beads when it is
-  // fast, or where slots run short; is film where that is thick (true); else a new drop.
+  // A raindrop: is film where that is thick or the rain keeps the glass wet (true); joins the drop it falls
+  // on; lies as a bead when it is small; breaks up into beads when it is fast, or where slots run short; else
+  // a new drop.
   bool impact(const DropWorld& world, const Impact& impact);
   // Water a drop ran over; goes to the film again when the drop is no more.
   void give(const DropWorld& world, const Taker& taker, int64_t volume_pl);
@@ -138,7 +140,7 @@ class Drops {
   void move(const DropWorld& world);  // forces, sliding, trails, the pane's edge
   const std::vector<GoneDrop>& overEdges() const { return over_edges_; }  // in the last move()
   void merge(const DropWorld& world);                                     // those that touch become one
-  void age(const DropWorld& world);                                       // evaporation, dissolving in film
+  void age(const DropWorld& world);                                       // evaporation, sinking into film
 
   uint64_t hash(uint64_t start) const;
 
@@ -206,6 +208,7 @@ class Drops {
   void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm::dvec2 ahead, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);
   void shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl);
+  bool staysFilm(const DropWorld& world, const Impact& impact);
   double largestBead_m3(double texel_m2) const;
   bool lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl);
   void takeUnder(const DropWorld& world, int slot);
@@ -213,6 +216,7 @@ class Drops {
   int touching(const DropWorld& world, int slot) const;
   int unite(const DropWorld& world, int a, int b);
   void age(const DropWorld& world, int slot);
+  bool sinks(const DropWorld& world, int slot) const;
   void dry(const DropWorld& world, int slot);
   void settle(int slot);
   void fitAngle(int slot);
@@ -257,6 +261,7 @@ class Drops {
   static constexpr float kPerMetre = static_cast<float>(1.0 / kCell_m);
   glm::ivec2 cell_count_{0};
   std::vector<int32_t> changed_;
+  std::vector<int32_t> under_;  // of staysFilm
   std::vector<GoneDrop> over_edges_;
   uint32_t live_ = 0;
   double shape_advancing_, shape_receding_, shape_mean_;  // V / R^3 at these angles

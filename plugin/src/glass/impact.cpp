@@ -65,6 +65,12 @@ double lamellaRadius_m(const Impact& impact) {
   return 0.5 * impact.diameter_m * std::sqrt(std::sqrt(weber(impact)));
 }
 
+double lamellae_hz(const PaneMap& map, std::span<const Impact> impacts) {
+  double wetted_m2 = 0.0;
+  for (const Impact& impact : impacts) wetted_m2 += std::numbers::pi * std::pow(lamellaRadius_m(impact), 2.0);
+  return wetted_m2 / (map.area_m2() * kTickSeconds);
+}
+
 double catchRate_m3_s(const PaneMap& map, const PaneTick& tick) {
   double sum = 0.0;
   for (uint32_t c = 0; c < tick.class_count; ++c) {

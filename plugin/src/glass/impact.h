@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "glass/pane_map.h"
@@ -22,6 +23,9 @@ double weber(const Impact& impact);
 // How far such a drop's water spreads over the glass: D We^(1/4) across (Clanet, Beguin, Richard & Quere
 // 2004).
 double lamellaRadius_m(const Impact& impact);
+
+// How often a lamella runs over a place of the pane (its mean), by the impacts of a tick.
+double lamellae_hz(const PaneMap& map, std::span<const Impact> impacts);
 
 // Water that meets the pane in a second, m^3/s: sum over sizes and regions of N V_D max(0, -(v_drop -
 // v_glass) . n) A.

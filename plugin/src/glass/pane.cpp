@@ -118,7 +118,8 @@ void PaneSim::State::slideWindow() {
 
 void PaneSim::State::catchRain() {
   findImpacts(map, now, seed, id, impacts);
-  const DropWorld shared_world = world();
+  DropWorld shared_world = world();
+  shared_world.lamellae_hz = lamellae_hz(map, impacts);
   for (const Impact& impact : impacts) {
     ledger.caught_pl += impact.volume_pl;
     const bool in_film = drops.impact(shared_world, impact);

@@ -8,7 +8,7 @@ constexpr double rad(double degrees) { return degrees * std::numbers::pi / 180.0
 Surface surfaceOf(Glass glass) {
   switch (glass) {
     case Glass::dirty:
-      return {rad(60), rad(20), 120.0, 4e-6, 80e-6, 40e-6, 0.6, 90e-6, 12e-6};
+      return {rad(60), rad(20), 120.0, 4e-6, 80e-6, 40e-6, 0.6, 90e-6, 5e-6};
     case Glass::coated:
       return {rad(110), rad(90), 60.0, 5e-6, 250e-6, 200e-6, 10.0, 1.0, 0.0};
     case Glass::new_coating:
@@ -16,7 +16,7 @@ Surface surfaceOf(Glass glass) {
     case Glass::uncoated:
       break;
   }
-  return {rad(40), rad(10), 100.0, 3e-6, 40e-6, 40e-6, 2.0, 60e-6, 15e-6};
+  return {rad(40), rad(10), 100.0, 3e-6, 40e-6, 40e-6, 2.0, 60e-6, 7e-6};
 }
 
 }  // namespace rg::glass

@@ -31,13 +31,16 @@ inline double cubicMetres(int64_t volume_pl) { return static_cast<double>(volume
 // few um a film pins or breaks into drops.
 struct Surface {
   double advancing_rad, receding_rad;
-  double friction;      // b of the sliding law F = F0 + b w eta U; 20..200 (Li et al. 2023)
-  double pin_m;         // a thinner film does not move
-  double front_m;       // a thinner film does not run onto dry glass
-  double rupture_m;     // a thinner film breaks up into beads ...
-  double rupture_hz;    // ... so often for each texel
-  double wetting_m;     // a tile with more film than this swallows drops that fall on it
-  double trail_film_m;  // film a sliding drop leaves at 0.1 m/s
+  double friction;    // b of the sliding law F = F0 + b w eta U; 20..200 (Li et al. 2023)
+  double pin_m;       // a thinner film does not move
+  double front_m;     // a thinner film does not run onto dry glass
+  double rupture_m;   // a thinner film breaks up into beads ...
+  double rupture_hz;  // ... so often for each texel
+  double wetting_m;   // a tile with more film than this swallows drops that fall on it
+  // Film a sliding drop leaves at 0.1 m/s: a part of what a wholly wetted wall keeps, 0.94 l_c Ca^(2/3) = 32
+  // um (Landau & Levich 1942), as a tail is narrower than its drop; so that the way behind it is seen (by
+  // eye).
+  double trail_film_m;
 };
 Surface surfaceOf(Glass glass);
 
