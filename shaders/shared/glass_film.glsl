@@ -220,8 +220,8 @@ RG_FN int flowBetween_pl(RG_IN(FilmCell) a, int a_pl, int a_both_pl, RG_IN(FilmC
   return even + (enters(a, a_pl, b) ? max(a_pl, 0) : 0) + (enters(b, b_pl, a) ? min(b_pl, 0) : 0);
 }
 
-// A tile dries in every eighth step, for all eight: what else lies still on it need not be looked at in the steps between.
-RG_CONST uint kDryingSteps = 8u;
+// A tile dries in every sixteenth step (a quarter of a second), for all of them: what else lies still on it need not be looked at in the steps between.
+RG_CONST uint kDryingSteps = 16u;
 RG_FN bool driesNow(uint tile, RG_IN(FilmStepInfo) info) { return (tile + info.step / 2u) % kDryingSteps == 0u; }
 
 // Whole picolitres out of a rate: the rest by chance, so that the mean is right.

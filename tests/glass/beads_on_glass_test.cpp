@@ -62,7 +62,7 @@ TEST_F(BeadsOnGlass, dryInTheTimeOfTheClosedForm) {
   const glass::Surface s = glass::surfaceOf(glass::Glass::uncoated);
   const double k_m2_s = glass::evaporation_kg_s(1.0, glass::meanAngle(s), 0.3, 0.0173) / 1000.0;
   bench.info.bead_drying_pl_mm =
-      static_cast<float>(k_m2_s * 1e12 * 8.0 * static_cast<double>(shared::kFilmStep_s));
+      static_cast<float>(k_m2_s * 1e12 * shared::kDryingSteps * static_cast<double>(shared::kFilmStep_s));
   const double bead_m3 = 4e-12, shape = glass::capShape(glass::meanAngle(s));
   const double time_s = 1.5 * std::pow(bead_m3, 2.0 / 3.0) * std::cbrt(shape) / k_m2_s;
   const int one = bench.at(0, 0), many = bench.at(3, 1);
@@ -81,7 +81,7 @@ TEST_F(BeadsOnGlass, dryInTheTimeOfTheClosedForm) {
     report = bench.step();
     for (const shared::FilmTile& tile : report.tiles) dried += tile.evaporated_pl;
     const double now_s = step * static_cast<double>(shared::kFilmStep_s);
-    if (step % 8 == 0) {
+    if (step % static_cast<int>(shared::kDryingSteps) == 0) {
       const Beads a = half(one), b = half(many);
       if (a.number == 0 && gone_s[0] == 0.0) gone_s[0] = now_s;
       if (b.number == 0 && gone_s[1] == 0.0) gone_s[1] = now_s;
@@ -94,7 +94,7 @@ TEST_F(BeadsOnGlass, dryInTheTimeOfTheClosedForm) {
     }
   }
   std::printf("dry after %.2f s and %.2f s, law %.2f s\n", gone_s[0], gone_s[1], time_s);
-  // Eighths of a second, whole picolitres by chance, and an end by 50 pl instead of 0, which is 5 % of the
+  // Quarters of a second, whole picolitres by chance, and an end by 50 pl instead of 0, which is 5 % of the
   // radius' square.
   for (const double gone : gone_s) EXPECT_NEAR(gone / time_s, 1.0, 0.06);
   EXPECT_EQ(dried, 13 * pl);
@@ -111,7 +111,7 @@ TEST_F(BeadsOnGlass, joinAFilmThatFlowsAndAreWhatABrokenOneLeaves) {
   EXPECT_EQ(bench.gpu.readBeads()[static_cast<size_t>(texel)], 0u);
   EXPECT_EQ(bench.gpu.readFilm()[static_cast<size_t>(texel)], 140'000);
   bench.info.rupture_chance = 1.0f;
-  for (int k = 0; k < 9; ++k) bench.step();
+  for (uint32_t k = 0; k <= shared::kDryingSteps; ++k) bench.step();
   const Beads left = shared::beadsOf(bench.gpu.readBeads()[static_cast<size_t>(texel)]);
   EXPECT_EQ(left.volume_pl, 140'000);
   EXPECT_GT(left.number, 1);
