@@ -1,4 +1,4 @@
-// What comes to the film and to the beads and what is taken from both: rain, trails and dissolved drops; what drops ran over; drops a blade met,
+// What comes to the film and to the beads and what is taken from both: rain, trails and drops that sank into it; what drops ran over; drops a blade met,
 // which join its ridge. No texel twice in a step. On a GPU first groups bring what drives the film from the orders, which lie in the CPU's memory.
 #include "glass/film_buffers.glsl"
 layout(local_size_x = 64) in;

@@ -114,7 +114,13 @@ float shareToBehind(View view, vec2 shift, float spanned) {
   float offset_m = dot(normal_eye, eye_from_vehicle * i.from_eye), least_m = min(0.5 * view.behind_m, kFarthestNear_m);
   vec2 beyond = shift * (1.5 * spanned / max(length(shift * frame.viewport.zw), 1.0));  // the picture is read between its pixels
   float share = 1.0;
-  for (int k = 0; k < 3 && behindGlassAt_m(mirrored(view.at + share * shift + beyond), normal_eye, offset_m) < least_m; ++k) share = k == 2 ? 0.0 : 0.5 * share;
+  for (int k = 0; k < 3; ++k) {
+    vec2 to = view.at + share * shift;
+    // A blade may lie between both.
+    float gap_m = min(behindGlassAt_m(mirrored(to), normal_eye, offset_m), behindGlassAt_m(mirrored(to + beyond), normal_eye, offset_m));
+    if (gap_m >= least_m) break;
+    share = k == 2 ? 0.0 : 0.5 * share;
+  }
   return share;
 }
 

@@ -39,7 +39,7 @@ struct FilmTile {
 RG_SIZE(FilmTile, 32)
 
 // CPU to GPU, in the order they happened.
-struct FilmAdd { int texel; int volume_pl; };             // rain, trails, drops that dissolve
+struct FilmAdd { int texel; int volume_pl; };             // rain, trails, drops that sink into it
 RG_SIZE(FilmAdd, 8)
 struct BeadAdd { int texel; int volume_pl; int number; }; // small impacts, what a splash throws about, pearls
 RG_SIZE(BeadAdd, 12)

@@ -180,10 +180,10 @@ TEST_F(Wiping, touchesNothingOutsideTheSweepAndCleansInside) {
   info.glass = glass::Glass::new_coating;
   Simulation sim(gl, info);
   sim.sim->setWiper(3, wiper(1e-4, 0.6));
-  // Half-millimetre drops leave spots of 3 um, and glass of the new coating holds films below 5 um.
+  // Drops of 0.3 mm leave spots of 1.6 um, and glass of the new coating holds films below 5 um.
   glass::PaneTick mist = weather(0.0);
   mist.class_count = 1;
-  mist.classes[0] = {0.5e-3, 600.0, 2.0};
+  mist.classes[0] = {0.3e-3, 1600.0, 2.0};
   sim.run(mist, 1.0);
   sim.run(weather(0.0), 0.5);
   const std::vector<int32_t> before = sim.pane.readFilm();

@@ -5,19 +5,20 @@
 namespace rg::test {
 namespace {
 
-// Something black in the picture's left half, bright sky all around; what wet glass makes of it.
+// Something black that reaches to the picture's middle, from its left edge or not so far; bright sky all
+// around; what wet glass makes of it.
 class NearThing : public Look {
  protected:
   // Film that bends views by some 30 pixels to either side, drops, and the thing where `along_m(row)`
   // of the view says.
   Picture seenWith(bool reversed, double film_m, int drops, const std::function<double(int y)>& along_m) {
     FlatPane pane(gl, kRake, 0.8, 64);
-    pane.putFilm([&](double u, double) { return film_m * (1.0 + std::sin(80.0 * u)); });
+    pane.putFilm([&](double u, double) { return film_m * (1.0 + std::sin(waves_per_m_ * u)); });
     if (drops > 0) pane.putDrops(scatter(pane, drops, 3e-3, glm::radians(60.0), 8));
     const gl::TextureCube white = makeCube(gl, 8, [](const glm::vec3&) { return glm::vec3(1.0f); });
     Scene scene = inside({320, 180});
     scene.light.environment_cube = white.name();
-    scene.picture = paint(scene.size_px, [](int x, int) { return glm::vec3(x < 160 ? 0.0f : 1.0f); });
+    scene.picture = paint(scene.size_px, [this](int x, int) { return glm::vec3(isThing(x) ? 0.0f : 1.0f); });
     if (reversed) {
       scene.view.clipFromEye[2] = glm::dvec4(0.0, 0.0, 0.0, -1.0);
       scene.view.clipFromEye[3] = glm::dvec4(0.0, 0.0, 0.05, 0.0);
@@ -27,10 +28,13 @@ class NearThing : public Look {
       const glm::dvec4 clip = scene.view.clipFromEye * glm::dvec4(0.0, 0.0, -along_m(y), 1.0);
       const double ndc = clip.z / clip.w;
       const auto thing = static_cast<float>(reversed ? ndc : 0.5 * ndc + 0.5);
-      for (int x = 0; x < 320; ++x) scene.depths.push_back(x < 160 ? thing : reversed ? 0.0f : 1.0f);
+      for (int x = 0; x < 320; ++x) scene.depths.push_back(isThing(x) ? thing : reversed ? 0.0f : 1.0f);
     }
     return draw(gl, look, scene, {&pane.pane, 1});
   }
+  bool isThing(int x) const { return x >= thing_from_px_ && x < 160; }
+  int thing_from_px_ = 0;
+  double waves_per_m_ = 80.0;  // of film, times 2 pi
   // A blade's plane `behind_m` off the glass.
   static std::function<double(int)> blade(double behind_m) {
     return [=](int y) {
@@ -68,6 +72,13 @@ TEST_F(NearThing, pillarAndBladeHaveNoFringe) {
     EXPECT_GT(darkestBeside(seenWith(reversed, 2e-3, 0, pillar)), 0.95) << reversed;
     EXPECT_GT(darkestBeside(seenWith(reversed, 2e-3, 0, blade(0.03))), 0.95) << reversed;
   }
+}
+
+// Steep waves of a film bend pixels that lie side by side by more than a blade is wide.
+TEST_F(NearThing, aThinBladeIsNotLeaptOver) {
+  thing_from_px_ = 152;
+  waves_per_m_ = 160.0;
+  EXPECT_GT(darkestBeside(seenWith(false, 2e-3, 0, blade(0.03))), 0.8);
 }
 
 // ... but what stands far off is bent into it, as by any lens.

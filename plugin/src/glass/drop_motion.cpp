@@ -70,17 +70,21 @@ void Drops::move(const DropWorld& world) {
   }
 }
 
-// Share of the hold that dry glass has on a drop. Where a film lies there is no contact line to hold it: it
-// is as much as drops that fall there stay drops, and none where they join the film (see impact()).
-double Drops::heldBy(const DropWorld& world, double film_m) const {
+// Share of the glass that a film of this mean thickness leaves dry. It is told for 5 cm: some of them are
+// wet, if any.
+double Drops::dryShare(double film_m) const {
+  return std::clamp(2.0 - 2.0 * film_m / surface_.wetting_m, 0.0, 1.0);
+}
+
+// Share of the hold that dry glass has on a drop: where a film lies there is no contact line to hold it.
+double Drops::heldBy(double film_m) const {
   constexpr double kLeast = 0.02;  // by eye: so much holds even then
-  const bool wetted = world.film.attached() && film_m > 0.5 * surface_.wetting_m;
-  return wetted ? std::max(2.0 - 2.0 * film_m / surface_.wetting_m, kLeast) : 1.0;
+  return std::max(dryShare(film_m), kLeast);
 }
 
 // Most panes have no film so thick, and no drop there has to be told what it lies on.
 double Drops::heldAt(const DropWorld& world, int texel) const {
-  return filmLetsGo(world) ? heldBy(world, world.film.thickness_m(texel)) : 1.0;
+  return filmLetsGo(world) ? heldBy(world.film.thickness_m(texel)) : 1.0;
 }
 
 // Not where even the greatest forces of its tile together are too weak and all of them are what they were
@@ -96,7 +100,7 @@ bool Drops::mayMove(const DropWorld& world, int slot) const {
   if (filmLetsGo(world)) {
     const int row = world.map.nodeCount().x;  // a tile has its first corner's number
     const auto tile = static_cast<size_t>(hold.tile - hold.tile / row);
-    least *= static_cast<float>(heldBy(world, world.film.mostAbout_m(tile)));
+    least *= static_cast<float>(heldBy(world.film.mostAbout_m(tile)));
   }
   return hold.acceleration_s2_m * about.most_acceleration_mps2 + hold.air2_s2_m2 * about.most_air2_m2_s2 >
              least ||

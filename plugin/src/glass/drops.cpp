@@ -26,11 +26,12 @@ bool shatters(const Impact& impact) {
   return 2.0 / 3.0 * impact.diameter_m < kThinnestLamella_m * std::sqrt(weber(impact));
 }
 
-// How fast a drop sinks into a film that it stands on: as a wave of the film does that is as long as four of
-// the drop's radii, at gamma h^3 k^4 / (3 mu) (Orchard 1962, Appl. Sci. Res. A 11).
+// How fast a drop sinks into a film that it stands on: as a small wave of the film levels by surface tension,
+// gamma h^3 k^4 / (3 mu) (Orchard 1962, Appl. Sci. Res. A 11), one as long as four of the drop's radii (by
+// eye; weight, which makes wide ones faster by a third to a half, is left out).
 double levelling_hz(double film_m, double base_radius_m) {
-  const double k_per_m = std::numbers::pi / (2.0 * base_radius_m);
-  return kGamma_n_m / (3.0 * kMu_pa_s) * std::pow(film_m, 3.0) * std::pow(k_per_m, 4.0);
+  const double k_per_m = std::numbers::pi / (2.0 * base_radius_m), kh_per_m = k_per_m * k_per_m * film_m;
+  return kGamma_n_m / (3.0 * kMu_pa_s) * film_m * kh_per_m * kh_per_m;
 }
 
 }  // namespace
@@ -234,27 +235,28 @@ int64_t Drops::cut(int slot, int64_t keep_pl) {
 
 // When slots run short larger and larger sizes lie as beads, the limit rising from 0 at half full to 2 mm at
 // full.
-bool Drops::impact(const DropWorld& world, const Impact& impact) {
+bool Drops::impact(const DropWorld& world, const Impact& impact, double rewetting_hz) {
   int64_t volume_pl = passed(LeakyKernel::impact, impact.volume_pl);
   const double used =
       slots_.capacity_ == 0 ? 1.0 : static_cast<double>(live_) / static_cast<double>(slots_.capacity_);
   const double least_diameter_m = 4e-3 * std::max(0.0, used - 0.5);
-  const double wet = world.film.attached() ? world.film.thickness_m(impact.texel) / surface_.wetting_m : 0.0;
   const double chance = static_cast<double>(shared::unitFloat(impact.hash));
   const bool short_of_slots = impact.diameter_m < least_diameter_m, no_beads = !world.film.attached();
-  const auto becomesFilm = [&](double radius_m) {
-    world.film.spread(impact.place_m, ForceField::metresAt(world.map, impact.place_m), radius_m, volume_pl);
+  const double texel_m = world.map.grid().texel_m;
+  const double wide_m = std::min(lamellaRadius_m(impact), (Footprint::kFarthest - 0.5) * texel_m);
+  const auto becomesFilm = [&] {
+    world.film.spread(impact.place_m, ForceField::metresAt(world.map, impact.place_m), wide_m + 0.5 * texel_m,
+                      volume_pl);
     return true;
   };
-  // The splash's lamella spreads it over some five diameters.
-  if (slots_.capacity_ == 0 || chance < 2.0 * wet - 1.0 || (short_of_slots && no_beads))
-    return becomesFilm(2.5 * impact.diameter_m + 0.5 * world.map.grid().texel_m);
+  if (slots_.capacity_ == 0 || chance >= dryShare(world.film.thickness_m(impact.texel)) ||
+      (short_of_slots && no_beads))
+    return becomesFilm();
   const int under = covering(world, impact.place_m);
-  const bool wider =
-      under >= 0 && static_cast<double>(nears_[static_cast<size_t>(under)].half_m) > lamellaRadius_m(impact);
-  if (!wider && staysFilm(world, impact)) {
+  const bool larger = under >= 0 && slots_.items[static_cast<size_t>(under)].volume_pl > volume_pl;
+  if (!larger && staysFilm(world, impact, wide_m, rewetting_hz)) {
     for (const int slot : under_) volume_pl += remove(slot);
-    return becomesFilm(lamellaRadius_m(impact));
+    return becomesFilm();
   }
   if (under >= 0) {
     Drop& drop = slots_.items[static_cast<size_t>(under)];
@@ -282,23 +284,24 @@ bool Drops::impact(const DropWorld& world, const Impact& impact) {
   return false;
 }
 
-// What drops lie under a lamella, wholly (under_), it washes along. It draws back into a drop as fast as a
-// line recedes that nothing else moves. Where another runs over it before that, all of it stays film, as long
-// as that is so thick as to swallow drops.
-bool Drops::staysFilm(const DropWorld& world, const Impact& impact) {
+// A lamella washes along what drops lie there that are no larger than its own (under_). It draws back into a
+// drop as fast as a line recedes that nothing else moves; where another runs over it before that all of it
+// stays film, as long as that is as thick as to wet the glass.
+bool Drops::staysFilm(const DropWorld& world, const Impact& impact, double wide_m, double rewetting_hz) {
   if (!world.film.attached()) return false;
-  const double wide_m = lamellaRadius_m(impact), own_m3 = cubicMetres(impact.volume_pl);
+  const double own_m3 = cubicMetres(impact.volume_pl);
   const double back_s = (wide_m - std::cbrt(own_m3 / shape_receding_)) / receding_mps_;
   const double chance = static_cast<double>(shared::unitFloat(shared::pcg(impact.hash ^ 0x68bc21ebu)));
-  if (chance >= -std::expm1(-world.lamellae_hz * back_s)) return false;
+  if (chance >= -std::expm1(-rewetting_hz * back_s)) return false;
   under_.clear();
   double all_m3 = own_m3;
   const glm::dvec2 metres = ForceField::metresAt(world.map, impact.place_m), reach = wide_m / metres;
-  forEachIn(impact.place_m - reach, impact.place_m + reach, [&](int slot, glm::vec2 place_m, float half_m) {
-    const double away_m = glm::length((glm::dvec2(place_m) - impact.place_m) * metres);
-    if (away_m + static_cast<double>(half_m) > wide_m) return;
+  forEachIn(impact.place_m - reach, impact.place_m + reach, [&](int slot, glm::vec2 place_m, float) {
+    const glm::dvec2 away_m = (glm::dvec2(place_m) - impact.place_m) * metres;
+    const int64_t volume_pl = slots_.items[static_cast<size_t>(slot)].volume_pl;
+    if (volume_pl > impact.volume_pl || glm::dot(away_m, away_m) > wide_m * wide_m) return;
     under_.push_back(slot);
-    all_m3 += cubicMetres(slots_.items[static_cast<size_t>(slot)].volume_pl);
+    all_m3 += cubicMetres(volume_pl);
   });
   const double film_m = world.film.thickness_m(impact.texel);
   return film_m + all_m3 / (std::numbers::pi * wide_m * wide_m) > surface_.wetting_m;
@@ -396,17 +399,18 @@ void Drops::age(const DropWorld& world, int slot) {
 
 // Where a tile is wet in parts its drops stand on film or on glass, as they happen to.
 bool Drops::sinks(const DropWorld& world, int slot) const {
+  if (!filmLetsGo(world)) return false;
   const Drop& drop = slots_.items[static_cast<size_t>(slot)];
-  const double film_m = filmLetsGo(world) ? world.film.thickness_m(drop.texel) : 0.0;
-  if (film_m == 0.0) return false;
   const uint32_t own = drop.seed ^ shared::pcg(static_cast<uint32_t>(slot));
   const auto chance = [own](uint32_t of) {
     return static_cast<double>(shared::unitFloat(shared::pcg(own + of)));
   };
+  const double film_m = world.film.thickness_m(drop.texel);
+  if (chance(0x9e3779b9u) < dryShare(film_m)) return false;
+  const double where_wet_m = std::max(film_m, surface_.wetting_m);
   const double expected =
-      levelling_hz(film_m, static_cast<double>(drop.base_radius_m)) * kAgeStride * kTickSeconds;
-  return chance(0x9e3779b9u) >= heldBy(world, film_m) &&
-         chance(static_cast<uint32_t>(world.tick)) < -std::expm1(-expected);
+      levelling_hz(where_wet_m, static_cast<double>(drop.base_radius_m)) * kAgeStride * kTickSeconds;
+  return chance(static_cast<uint32_t>(world.tick)) < -std::expm1(-expected);
 }
 
 // A braced drop that dries stays so: its weight goes with its volume, what holds it with its width, V^(1/3),

@@ -86,7 +86,6 @@ struct DropWorld {
   int64_t tick = 0;
   double humidity = 1.0;
   double saturated_kg_m3 = 0.0;
-  double lamellae_hz = 0.0;  // see impact.h
 };
 
 // One that ran over the pane's edge, from this texel.
@@ -124,10 +123,10 @@ class Drops {
   // unless `as_told`. Returns its slot, or -1 when there is no room (nothing happened).
   int add(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl, double base_radius_m, uint32_t seed,
           bool as_told = false);
-  // A raindrop: is film where that is thick or the rain keeps the glass wet (true); joins the drop it falls
-  // on; lies as a bead when it is small; breaks up into beads when it is fast, or where slots run short; else
-  // a new drop.
-  bool impact(const DropWorld& world, const Impact& impact);
+  // A raindrop: is film where that is thick or rain keeps the glass wet (true), `rewetting_hz` as
+  // lamellae_hz(); joins the drop it falls on; lies as a bead when it is small; breaks up into beads when it
+  // is fast, or where slots run short; else a new drop.
+  bool impact(const DropWorld& world, const Impact& impact, double rewetting_hz);
   // Water a drop ran over; goes to the film again when the drop is no more.
   void give(const DropWorld& world, const Taker& taker, int64_t volume_pl);
   // Removes a drop and says how much it was.
@@ -197,7 +196,8 @@ class Drops {
   void brace(const DropWorld& world, int slot, int tile, double mass_kg, double drag_s2_m2,
              double dry_hold_n);
   bool mayMove(const DropWorld& world, int slot) const;
-  double heldBy(const DropWorld& world, double film_m) const;
+  double dryShare(double film_m) const;
+  double heldBy(double film_m) const;
   double heldAt(const DropWorld& world, int texel) const;
   // Whether a film holds drops less anywhere on the pane.
   bool filmLetsGo(const DropWorld& world) const { return world.film.thickest_m() > 0.5 * surface_.wetting_m; }
@@ -208,7 +208,7 @@ class Drops {
   void takeAcross(const DropWorld& world, int slot, glm::dvec2 place_m, glm::dvec2 ahead, double width_m);
   bool overEdge(const DropWorld& world, int slot, int texel);
   void shatter(const DropWorld& world, const Impact& impact, int64_t volume_pl);
-  bool staysFilm(const DropWorld& world, const Impact& impact);
+  bool staysFilm(const DropWorld& world, const Impact& impact, double wide_m, double rewetting_hz);
   double largestBead_m3(double texel_m2) const;
   bool lieAsBead(const DropWorld& world, glm::dvec2 place_m, int64_t volume_pl);
   void takeUnder(const DropWorld& world, int slot);

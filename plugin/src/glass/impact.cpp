@@ -35,6 +35,17 @@ double reached_m3_s(const PaneMap& map, const PaneTick& tick, const glm::dvec3& 
   return sum;
 }
 
+glm::dvec3 openArea_m2(const PaneMap& map, const PaneTick& tick) {
+  glm::dvec3 open_m2(0.0);
+  for (int r = 0; r < kRegions; ++r)
+    open_m2 += static_cast<double>(tick.wet_share[static_cast<size_t>(r)]) * map.regionArea_m2(r);
+  return open_m2;
+}
+
+double weber(double diameter_m, double speed_mps) {
+  return kRho_kg_m3 * speed_mps * speed_mps * diameter_m / kGamma_n_m;
+}
+
 // A texel of the region with the odds of its area and incidence, by trying. What is true of all its texels
 // mostly tells the outcome; looking them up one by one would cost more than all else about an impact.
 int pickTexel(const PaneMap& map, int region, const glm::dvec3& v, Stream& random) {
@@ -57,18 +68,28 @@ int pickTexel(const PaneMap& map, int region, const glm::dvec3& v, Stream& rando
 
 }  // namespace
 
-double weber(const Impact& impact) {
-  return kRho_kg_m3 * impact.speed_mps * impact.speed_mps * impact.diameter_m / kGamma_n_m;
+double weber(const Impact& impact) { return weber(impact.diameter_m, impact.speed_mps); }
+
+double lamellaRadius_m(double diameter_m, double speed_mps) {
+  const double reynolds = kRho_kg_m3 * speed_mps * diameter_m / kMu_pa_s;
+  return 0.5 * diameter_m *
+         std::min(std::sqrt(std::sqrt(weber(diameter_m, speed_mps))), std::pow(reynolds, 0.2));
 }
 
-double lamellaRadius_m(const Impact& impact) {
-  return 0.5 * impact.diameter_m * std::sqrt(std::sqrt(weber(impact)));
-}
+double lamellaRadius_m(const Impact& impact) { return lamellaRadius_m(impact.diameter_m, impact.speed_mps); }
 
-double lamellae_hz(const PaneMap& map, std::span<const Impact> impacts) {
-  double wetted_m2 = 0.0;
-  for (const Impact& impact : impacts) wetted_m2 += std::numbers::pi * std::pow(lamellaRadius_m(impact), 2.0);
-  return wetted_m2 / (map.area_m2() * kTickSeconds);
+double lamellae_hz(const PaneMap& map, const PaneTick& tick) {
+  const glm::dvec3 open_m2 = openArea_m2(map, tick);
+  const double area_m2 = glm::length(open_m2);
+  if (area_m2 == 0.0) return 0.0;
+  double wetted_m2_s = 0.0;
+  for (uint32_t c = 0; c < tick.class_count; ++c) {
+    const SizeClass& size = tick.classes[c];
+    const double reached_m3_s = std::max(0.0, -glm::dot(dropVelocity(tick, size), open_m2));
+    const double radius_m = lamellaRadius_m(size.diameter_m, reached_m3_s / area_m2);
+    wetted_m2_s += size.number_per_m3 * reached_m3_s * std::numbers::pi * radius_m * radius_m;
+  }
+  return wetted_m2_s / area_m2;
 }
 
 double catchRate_m3_s(const PaneMap& map, const PaneTick& tick) {
@@ -86,9 +107,7 @@ double catchRate_m3_s(const PaneMap& map, const PaneTick& tick) {
 void findImpacts(const PaneMap& map, const PaneTick& tick, uint64_t seed, uint32_t pane,
                  std::vector<Impact>& out) {
   out.clear();
-  glm::dvec3 open_m2(0.0);
-  for (int r = 0; r < kRegions; ++r)
-    open_m2 += static_cast<double>(tick.wet_share[static_cast<size_t>(r)]) * map.regionArea_m2(r);
+  const glm::dvec3 open_m2 = openArea_m2(map, tick);
   for (uint32_t c = 0; c < tick.class_count; ++c) {
     const SizeClass& size = tick.classes[c];
     const glm::dvec3 v = dropVelocity(tick, size);

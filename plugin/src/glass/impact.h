@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "glass/pane_map.h"
@@ -20,12 +19,13 @@ struct Impact {
 
 double weber(const Impact& impact);
 
-// How far such a drop's water spreads over the glass: D We^(1/4) across (Clanet, Beguin, Richard & Quere
-// 2004).
+// How far such a drop's water spreads over the glass, as a lamella: D We^(1/4) across, or D Re^(1/5) where
+// viscosity stops it before (Clanet, Beguin, Richard & Quere 2004). Speed along the glass' normal.
+double lamellaRadius_m(double diameter_m, double speed_mps);
 double lamellaRadius_m(const Impact& impact);
 
-// How often a lamella runs over a place of the pane (its mean), by the impacts of a tick.
-double lamellae_hz(const PaneMap& map, std::span<const Impact> impacts);
+// How often lamellae run over a place of the glass that the rain reaches, in the mean.
+double lamellae_hz(const PaneMap& map, const PaneTick& tick);
 
 // Water that meets the pane in a second, m^3/s: sum over sizes and regions of N V_D max(0, -(v_drop -
 // v_glass) . n) A.

@@ -118,11 +118,11 @@ void PaneSim::State::slideWindow() {
 
 void PaneSim::State::catchRain() {
   findImpacts(map, now, seed, id, impacts);
-  DropWorld shared_world = world();
-  shared_world.lamellae_hz = lamellae_hz(map, impacts);
+  const DropWorld shared_world = world();
+  const double rewetting_hz = impacts.empty() ? 0.0 : lamellae_hz(map, now);
   for (const Impact& impact : impacts) {
     ledger.caught_pl += impact.volume_pl;
-    const bool in_film = drops.impact(shared_world, impact);
+    const bool in_film = drops.impact(shared_world, impact, rewetting_hz);
     if (in_film) craters.add(impact, film.thickness_m(impact.texel), forces, ticks);
   }
 }

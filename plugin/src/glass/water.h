@@ -35,11 +35,10 @@ struct Surface {
   double pin_m;       // a thinner film does not move
   double front_m;     // a thinner film does not run onto dry glass
   double rupture_m;   // a thinner film breaks up into beads ...
-  double rupture_hz;  // ... so often for each texel
-  double wetting_m;   // a tile with more film than this swallows drops that fall on it
-  // Film a sliding drop leaves at 0.1 m/s: a part of what a wholly wetted wall keeps, 0.94 l_c Ca^(2/3) = 32
-  // um (Landau & Levich 1942), as a tail is narrower than its drop; so that the way behind it is seen (by
-  // eye).
+  double rupture_hz;  // ... so often for each texel, once in a turn to dry at most
+  double wetting_m;  // a film so thick wets all glass of its tile, from half of that on a part; drops sink in
+  // Film a sliding drop leaves at 0.1 m/s (by eye; a wall that is wetted wholly keeps 32 um, Landau & Levich
+  // 1942: 0.94 l_c Ca^(2/3)).
   double trail_film_m;
 };
 Surface surfaceOf(Glass glass);
