@@ -6,6 +6,7 @@
 
 #include "drop_scene.h"
 #include "glass/film_link.h"
+#include "glass/impact.h"
 #include "glass/water.h"
 
 namespace rg::test {
@@ -299,9 +300,9 @@ TEST(DropsOnFilm, thicknessIsSmoothFromTileToTile) {
 }
 
 // A film that is so thick all over the pane, played here and giving it nothing, for so long.
-void playFilm(DropScene& scene, double film_m, double seconds) {
+void playFilm(DropScene& scene, double film_m, double seconds, const glass::PaneTick& rain = weather(0.0)) {
   for (int64_t i = 0; i < std::llround(seconds / kTickSeconds); ++i) {
-    scene.run(weather(0.0), kTickSeconds);
+    scene.run(rain, kTickSeconds);
     for (const glass::FilmOrder& order : scene.sim->fetchOrders()) {
       glass::FilmReport report;
       report.step = order.step;
@@ -385,6 +386,26 @@ TEST(DropsOnFilm, sinkAsItsWavesLevel) {
     EXPECT_NEAR(scene.sim->stats().drops, law, 4.0 * std::sqrt(law * (1.0 - stays)))
         << "four standard deviations";
   }
+}
+
+// Raindrops of 0.7 uL whose lamellae are wider than the drops of 10 uL that they fall on, so many that most
+// would stay film: that much water they do not wash along.
+TEST(Drops, catchRaindropsThatAreSmaller) {
+  DropScene scene(1e-4, glass::Glass::uncoated);
+  scene.sim->attachFilm();
+  constexpr int kDrops = 8;
+  for (int k = 0; k < kDrops; ++k) scene.place((k - 3.5) * 0.05, 0.0, 3e-3, rad(25));
+  const int64_t placed_pl = scene.sim->stats().drops_pl;
+  glass::PaneTick rain = weather(0.0);
+  rain.class_count = 1;
+  rain.classes[0] = {1.1e-3, 3000.0, 18.0};
+  ASSERT_GT(glass::lamellaRadius_m(1.1e-3, 18.0), 3.5e-3);
+  playFilm(scene, 0.0, 1.0, rain);
+  const auto seen = scene.sim->snapshot();
+  const auto large = std::ranges::count_if(
+      seen->drops, [](const shared::GlassDropRecord& drop) { return drop.base_radius_m > 2.9e-3f; });
+  EXPECT_EQ(large, kDrops);
+  EXPECT_GT(scene.sim->stats().drops_pl, placed_pl);
 }
 
 }  // namespace
