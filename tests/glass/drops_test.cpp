@@ -355,8 +355,7 @@ TEST(DropsOnFilm, areHeldAsFarAsTheGlassIsDry) {
 }
 
 // They sink as waves of the film level that are four of their radii long: at gamma h^3 k^4 / (3 mu) (Orchard
-// 1962). On a pane that lies level, so that they stay; where a film wets the glass wholly a fiftieth stay
-// drops.
+// 1962). On a pane that lies level, so that they stay, below films that wet it wholly.
 TEST(DropsOnFilm, sinkAsItsWavesLevel) {
   constexpr double kAsked_s = 16.0 / 120.0;  // how often each is looked at
   struct Sinking {

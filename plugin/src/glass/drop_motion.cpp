@@ -70,8 +70,8 @@ void Drops::move(const DropWorld& world) {
   }
 }
 
-// Share of the glass that a film of this mean thickness leaves dry. It is told for 5 cm: some of them are
-// wet, if any.
+// Share of the glass that a film leaves dry. What is told of a film is its mean over some 5 cm: where that is
+// little, a part is wet and the rest dry.
 double Drops::dryShare(double film_m) const {
   return std::clamp(2.0 - 2.0 * film_m / surface_.wetting_m, 0.0, 1.0);
 }

@@ -1,5 +1,5 @@
 // The CPU's end of the film: gathers what ticks give to it and ask of it into one order a step, and says
-// where the film is thick enough to swallow drops. Without a film (none attached, or a pane that has none)
+// how thick the film is. Without a film (none attached, or a pane that has none)
 // water meant for it runs off: it is booked as drained.
 #pragma once
 
